@@ -1,0 +1,47 @@
+# Every target is one plain command once the environment exists; README.md lists those commands for machines without make.
+# ARGS is passed through:  make lab ARGS=--no-browser    make test ARGS="-k beam"
+
+PYTHON ?= python3
+ARGS ?=
+
+ifeq ($(OS),Windows_NT)
+BIN := .venv/Scripts
+else
+BIN := .venv/bin
+endif
+
+.DEFAULT_GOAL := help
+.PHONY: help env lab test reproduce notebooks lint format bench lock clean
+
+help:  ## list these targets
+	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 18
+
+env:  ## create or update .venv (every target below does this first)
+	@$(PYTHON) tools/bootstrap.py
+
+lab: env  ## open JupyterLab on the first notebook
+	$(BIN)/python -m jupyterlab notebooks/00_start_here.ipynb $(ARGS)
+
+test: env  ## run all tests: unit, property and notebook tests
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist loadscope $(ARGS)
+
+reproduce: env  ## run the paper's case: printed, ours, difference; writes build/reproduction.json
+	$(BIN)/python -m railbridge.paper $(ARGS)
+
+notebooks: env  ## execute all notebooks and store their outputs (the only way outputs are stored)
+	$(BIN)/python tools/notebooks.py $(ARGS)
+
+lint: env  ## check style, formatting and the layers of the package
+	$(BIN)/python tools/lint.py $(ARGS)
+
+format: env  ## put the code into the one style that lint asks for
+	$(BIN)/python tools/lint.py --fix $(ARGS)
+
+bench: env  ## time the paper's case and how the time grows with the number of cars
+	$(BIN)/python benchmarks/bench.py $(ARGS)
+
+lock:  ## write requirements.lock from pyproject.toml (ARGS=--upgrade for newer versions)
+	$(PYTHON) tools/bootstrap.py --lock $(ARGS)
+
+clean:  ## delete the environment, caches and build/
+	$(PYTHON) tools/clean.py

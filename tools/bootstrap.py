@@ -1,0 +1,227 @@
+"""Create or update the project's environment in `.venv`, and do nothing when it is already right.
+
+    python3 tools/bootstrap.py            create or update `.venv`
+    python3 tools/bootstrap.py --lock     write requirements.lock from pyproject.toml (add --upgrade for newer versions)
+
+Any Python >= 3.11 with its standard library runs this file. It installs the versions of requirements.lock with uv, which
+is several times faster than pip and byte-compiles in parallel, and falls back to pip where uv cannot be had or cannot reach
+the package index. The stamp `.venv/railbridge-stamp.json` is written last, so an interrupted run is noticed and repaired.
+"""
+
+import sys
+
+OLDEST_PYTHON = (3, 11)
+if sys.version_info < OLDEST_PYTHON:  # before anything that an old Python could stumble over
+    sys.exit("railbridge needs Python %d.%d or newer; this is %s." % (*OLDEST_PYTHON, sys.version.split()[0]))
+
+import ast
+import contextlib
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+EXTRAS = ("test", "dev")
+
+# pip's settings -> uv's environment variables. uv does not read pip's configuration, but people's mirrors are written there.
+UV_NAME = {
+    "index-url": "UV_DEFAULT_INDEX",
+    "extra-index-url": "UV_INDEX",
+    "find-links": "UV_FIND_LINKS",
+    "no-index": "UV_NO_INDEX",
+    "trusted-host": "UV_INSECURE_HOST",
+    "cert": "SSL_CERT_FILE",
+    "proxy": "ALL_PROXY",
+    "timeout": "UV_HTTP_TIMEOUT",
+    "default-timeout": "UV_HTTP_TIMEOUT",
+}
+
+
+class Environment:
+    """The environment of one working copy: where it is, whether it is right, how it is made so."""
+
+    def __init__(self, root=ROOT):
+        self.root = Path(root)
+        self.path = self.root / ".venv"
+        self.python = self.path / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+        self.lock = self.root / "requirements.lock"
+        self.stamp = self.path / "railbridge-stamp.json"
+        self.unfinished = self.path / "railbridge-unfinished"
+
+    def wanted(self):
+        """What a right environment's stamp says: the inputs it was made from and the place it was made for."""
+        digest = hashlib.sha256()
+        for file in (self.lock, self.root / "pyproject.toml", Path(__file__)):
+            digest.update(file.read_bytes() + b"\0")
+        return {"inputs": digest.hexdigest(), "root": str(self.root)}
+
+    def stamped(self):
+        """What the stamp says, {} without one."""
+        try:
+            return json.loads(self.stamp.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return {}
+
+    def is_right(self):
+        return self.stamped() == self.wanted() and self.python.exists()
+
+    def must_start_over(self):
+        """True if what stands there is half-made, moved from another folder, or has lost its Python."""
+        if not self.path.exists():
+            return True
+        moved = self.stamped().get("root", str(self.root)) != str(self.root)
+        return self.unfinished.exists() or moved or not self.python.exists()
+
+    def make(self):
+        """Create or update the environment; the stamp goes first and comes back last."""
+        wanted = self.wanted()
+        fresh = self.must_start_over()
+        if fresh:
+            require_venv()
+            if self.path.is_symlink():
+                self.path.unlink()
+            elif self.path.exists():
+                shutil.rmtree(self.path)
+            self.path.mkdir()
+        self.unfinished.touch()
+        self.stamp.unlink(missing_ok=True)
+        if fresh:
+            say("creating .venv ...")
+            run([sys.executable, "-m", "venv", str(self.path)])
+        elif subprocess.run([self.python, "-c", "import pip"], capture_output=True).returncode:
+            run([self.python, "-m", "ensurepip"])
+        say("installing the locked packages ...")
+        if not (self.has_uv() and self.install_with_uv()):
+            say("uv is not to be had; installing with pip, which takes longer ...")
+            self.install_with_pip()
+        self.stamp.write_text(json.dumps(wanted), encoding="utf-8")
+        self.unfinished.unlink()
+
+    def has_uv(self):
+        """Put the locked uv into the environment; False where that fails."""
+        locked = [line for line in self.locked_lines() if re.match(r"uv\s*==", line)]
+        wheel_only = ["--only-binary=:all:", "--no-deps", "--no-compile", "--quiet"]
+        command = [self.python, "-m", "pip", "--disable-pip-version-check", "install", *wheel_only, *(locked or ["uv"])]
+        return subprocess.run(command, capture_output=True).returncode == 0
+
+    def locked_lines(self):
+        return self.lock.read_text(encoding="utf-8").splitlines() if self.lock.exists() else []
+
+    def install_with_uv(self):
+        uv = [self.python, "-m", "uv", "pip", "install", "--quiet", "--python", str(self.python), "--no-deps"]
+        environment = uv_environment(pip_settings(self.python))
+        return all(
+            subprocess.run([*uv, *what], cwd=self.root, env=environment).returncode == 0
+            for what in (
+                ["--compile-bytecode", "-r", str(self.lock)],
+                # After the lock: the build backend is now in the environment, so nothing is fetched to build with.
+                ["--no-build-isolation", "-e", "."],
+            )
+        )
+
+    def install_with_pip(self):
+        pip = [self.python, "-m", "pip", "--disable-pip-version-check", "install", "--quiet", "--no-deps"]
+        run([*pip, "-r", str(self.lock)], cwd=self.root)
+        run([*pip, "--no-build-isolation", "-e", "."], cwd=self.root)
+
+    def write_lock(self, *options):
+        """Resolve pyproject.toml for every platform and write `name==version` lines."""
+        if not self.python.exists():
+            require_venv()
+            run([sys.executable, "-m", "venv", str(self.path)])
+        if not self.has_uv():
+            sys.exit("The lock is made with uv, and uv could not be installed; see pip's settings for the package index.")
+        command = [self.python, "-m", "uv", "pip", "compile", "pyproject.toml", "--universal", "--quiet"]
+        command += ["--python-version", "%d.%d" % OLDEST_PYTHON, "--no-annotate", "--no-header"]
+        command += [option for extra in EXTRAS for option in ("--extra", extra)]
+        run([*command, "-o", str(self.lock), *options], cwd=self.root, env=uv_environment(pip_settings(self.python)))
+
+
+def pip_settings(python):
+    """pip's settings as {name: [values]}; what stands in the environment wins over [install], that over [global]."""
+    listing = subprocess.run([python, "-m", "pip", "config", "list"], capture_output=True, text=True).stdout
+    ranked = {}
+    for line in listing.splitlines():
+        found = re.fullmatch(r"(global|install|:env:)\.([\w-]+)=(.*)", line.strip())
+        if found:
+            section, name, value = found.groups()
+            with contextlib.suppress(ValueError, SyntaxError):
+                ranked[("global", "install", ":env:").index(section), name] = str(ast.literal_eval(value)).split()
+    return {name: values for (_, name), values in sorted(ranked.items())}
+
+
+def uv_environment(settings):
+    """The process environment plus uv's own names for pip's settings; names that are already set are left alone."""
+    derived = {"UV_PYTHON_DOWNLOADS": "never", "UV_INDEX_STRATEGY": "unsafe-best-match", "UV_LINK_MODE": link_mode()}
+    for name, values in settings.items():
+        if name in UV_NAME and values:
+            derived[UV_NAME[name]] = ("," if name == "find-links" else " ").join(values)
+    if derived.get("UV_NO_INDEX", "").lower() in ("0", "no", "off", "false"):
+        del derived["UV_NO_INDEX"]
+    return {**derived, **os.environ}
+
+
+def link_mode():
+    return "copy" if os.name == "nt" else "hardlink"
+
+
+def require_venv():
+    """One line and exit code 1 if this Python cannot make an environment."""
+    for module in ("venv", "ensurepip"):
+        try:
+            __import__(module)
+        except ImportError:
+            version = "%d.%d" % sys.version_info[:2]
+            sys.exit(
+                f"This Python {version} has no '{module}' module: install the package python{version}-venv (Debian, Ubuntu: "
+                f"apt install python3-venv) or use a Python that has it."
+            )
+
+
+@contextlib.contextmanager
+def one_at_a_time():
+    """Two runs in one folder: the second waits for the first."""
+    try:
+        import fcntl
+    except ImportError:  # Windows
+        yield
+        return
+    with open(__file__, "rb") as handle:
+        with contextlib.suppress(OSError):  # a file system without locks
+            fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+
+
+def run(command, **options):
+    code = subprocess.run(command, **options).returncode
+    if code:
+        sys.exit(f"The environment is not complete: this command failed with code {code}: " + " ".join(map(str, command)))
+
+
+def say(text):
+    print(text, flush=True)
+
+
+def main(arguments):
+    environment = Environment()
+    if arguments[:1] == ["--lock"]:
+        environment.write_lock(*arguments[1:])
+        return
+    if arguments:
+        sys.exit(__doc__)
+    if environment.is_right():
+        return
+    with one_at_a_time():
+        if not environment.is_right():
+            start = time.monotonic()
+            environment.make()
+            say(f"environment ready in {time.monotonic() - start:.0f} s")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,29 @@
+"""Run every static check; `--fix` mends first what can be mended by itself. Exit code 1 if anything is found."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+MEND = (["ruff", "check", "--fix", "--quiet"], ["ruff", "format", "--quiet"])
+CHECKS = (["ruff", "check"], ["ruff", "format", "--check"], ["importlinter.cli", "lint"])
+
+
+def run(module, *arguments):
+    if module == "importlinter.cli":  # no `python -m importlinter`; its command line is a function
+        code = "from importlinter.cli import lint_imports_command as c; c()"
+        return subprocess.run([sys.executable, "-c", code, *arguments[1:]], cwd=ROOT).returncode
+    return subprocess.run([sys.executable, "-m", module, *arguments], cwd=ROOT).returncode
+
+
+def main(arguments):
+    if arguments == ["--fix"]:
+        for command in MEND:
+            run(*command)
+    elif arguments:
+        sys.exit(__doc__)
+    sys.exit(max([run(*command) for command in CHECKS]) and 1)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
