@@ -135,7 +135,9 @@ class Environment:
             require_venv()
             run([sys.executable, "-m", "venv", str(self.path)])
         if not self.has_uv():
-            sys.exit("The lock is made with uv, and uv could not be installed; see pip's settings for the package index.")
+            sys.exit(
+                "The lock is made with uv, and uv could not be installed; see pip's settings for the package index."
+            )
         command = [self.python, "-m", "uv", "pip", "compile", "pyproject.toml", "--universal", "--quiet"]
         command += ["--python-version", "%d.%d" % OLDEST_PYTHON, "--no-annotate", "--no-header"]
         command += [option for extra in EXTRAS for option in ("--extra", extra)]
@@ -200,7 +202,9 @@ def one_at_a_time():
 def run(command, **options):
     code = subprocess.run(command, **options).returncode
     if code:
-        sys.exit(f"The environment is not complete: this command failed with code {code}: " + " ".join(map(str, command)))
+        sys.exit(
+            f"The environment is not complete: this command failed with code {code}: " + " ".join(map(str, command))
+        )
 
 
 def say(text):

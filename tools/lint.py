@@ -6,14 +6,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 MEND = (["ruff", "check", "--fix", "--quiet"], ["ruff", "format", "--quiet"])
-CHECKS = (["ruff", "check"], ["ruff", "format", "--check"], ["importlinter.cli", "lint"])
+CHECKS = (["ruff", "check"], ["ruff", "format", "--check"], ["lint-imports"])
 
 
-def run(module, *arguments):
-    if module == "importlinter.cli":  # no `python -m importlinter`; its command line is a function
-        code = "from importlinter.cli import lint_imports_command as c; c()"
-        return subprocess.run([sys.executable, "-c", code, *arguments[1:]], cwd=ROOT).returncode
-    return subprocess.run([sys.executable, "-m", module, *arguments], cwd=ROOT).returncode
+def run(program, *arguments):
+    """Run a program that stands beside this Python, in the environment."""
+    return subprocess.run([Path(sys.executable).with_name(program), *arguments], cwd=ROOT).returncode
 
 
 def main(arguments):
