@@ -1,4 +1,4 @@
-"""How the notebooks are tested: nbval runs every cell; cells marked `# NBVAL_CHECK_OUTPUT` must print what is stored."""
+"""How notebooks are tested: nbval runs every cell; those marked `# NBVAL_CHECK_OUTPUT` must print what is stored."""
 
 import os
 

@@ -3,16 +3,11 @@
     python3 tools/bootstrap.py            create or update `.venv`
     python3 tools/bootstrap.py --lock     write requirements.lock from pyproject.toml (add --upgrade for newer versions)
 
-Any Python >= 3.11 with its standard library runs this file. It installs the versions of requirements.lock with uv, which
-is several times faster than pip and byte-compiles in parallel, and falls back to pip where uv cannot be had or cannot reach
-the package index. The stamp `.venv/railbridge-stamp.json` is written last, so an interrupted run is noticed and repaired.
+Any Python >= 3.11 with its standard library runs this file. It installs the versions of requirements.lock with uv,
+which is several times faster than pip and byte-compiles in parallel, and falls back to pip where uv cannot be had or
+cannot reach the package index. The stamp `.venv/railbridge-stamp.json` is written last, so an interrupted run is
+noticed and repaired.
 """
-
-import sys
-
-OLDEST_PYTHON = (3, 11)
-if sys.version_info < OLDEST_PYTHON:  # before anything that an old Python could stumble over
-    sys.exit("railbridge needs Python %d.%d or newer; this is %s." % (*OLDEST_PYTHON, sys.version.split()[0]))
 
 import ast
 import contextlib
@@ -22,13 +17,15 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
+OLDEST_PYTHON = "3.11"
 EXTRAS = ("test", "dev")
 
-# pip's settings -> uv's environment variables. uv does not read pip's configuration, but people's mirrors are written there.
+# pip's settings -> uv's environment variables: uv does not read pip's configuration, where people name their mirrors.
 UV_NAME = {
     "index-url": "UV_DEFAULT_INDEX",
     "extra-index-url": "UV_INDEX",
@@ -135,11 +132,9 @@ class Environment:
             require_venv()
             run([sys.executable, "-m", "venv", str(self.path)])
         if not self.has_uv():
-            sys.exit(
-                "The lock is made with uv, and uv could not be installed; see pip's settings for the package index."
-            )
+            sys.exit("The lock is made with uv, and uv could not be installed; see pip's settings.")
         command = [self.python, "-m", "uv", "pip", "compile", "pyproject.toml", "--universal", "--quiet"]
-        command += ["--python-version", "%d.%d" % OLDEST_PYTHON, "--no-annotate", "--no-header"]
+        command += ["--python-version", OLDEST_PYTHON, "--no-annotate", "--no-header"]
         command += [option for extra in EXTRAS for option in ("--extra", extra)]
         run([*command, "-o", str(self.lock), *options], cwd=self.root, env=uv_environment(pip_settings(self.python)))
 
@@ -159,7 +154,7 @@ def pip_settings(python):
 
 def uv_environment(settings):
     """The process environment plus uv's own names for pip's settings; names that are already set are left alone."""
-    derived = {"UV_PYTHON_DOWNLOADS": "never", "UV_INDEX_STRATEGY": "unsafe-best-match", "UV_LINK_MODE": link_mode()}
+    derived = {"UV_PYTHON_DOWNLOADS": "never", "UV_INDEX_STRATEGY": "unsafe-best-match"}
     for name, values in settings.items():
         if name in UV_NAME and values:
             derived[UV_NAME[name]] = ("," if name == "find-links" else " ").join(values)
@@ -168,8 +163,10 @@ def uv_environment(settings):
     return {**derived, **os.environ}
 
 
-def link_mode():
-    return "copy" if os.name == "nt" else "hardlink"
+def require_python(version=sys.version_info):
+    """One line and exit code 1 if this Python is too old."""
+    if (version[0], version[1]) < tuple(map(int, OLDEST_PYTHON.split("."))):
+        sys.exit(f"railbridge needs Python {OLDEST_PYTHON} or newer; this is Python {version[0]}.{version[1]}.")
 
 
 def require_venv():
@@ -178,10 +175,10 @@ def require_venv():
         try:
             __import__(module)
         except ImportError:
-            version = "%d.%d" % sys.version_info[:2]
+            name = f"python{sys.version_info[0]}.{sys.version_info[1]}-venv"
             sys.exit(
-                f"This Python {version} has no '{module}' module: install the package python{version}-venv (Debian, Ubuntu: "
-                f"apt install python3-venv) or use a Python that has it."
+                f"This Python has no '{module}' module: install the package {name} (on Debian and Ubuntu: "
+                f"apt install {name}), or run with another Python."
             )
 
 
@@ -202,9 +199,8 @@ def one_at_a_time():
 def run(command, **options):
     code = subprocess.run(command, **options).returncode
     if code:
-        sys.exit(
-            f"The environment is not complete: this command failed with code {code}: " + " ".join(map(str, command))
-        )
+        words = " ".join(map(str, command))
+        sys.exit(f"The environment is not complete: this command failed with code {code}: {words}")
 
 
 def say(text):
@@ -212,6 +208,7 @@ def say(text):
 
 
 def main(arguments):
+    require_python()
     environment = Environment()
     if arguments[:1] == ["--lock"]:
         environment.write_lock(*arguments[1:])
