@@ -1,0 +1,96 @@
+"""One set of asks: pyproject.toml, environment.yml, requirements.lock and what is installed agree."""
+
+import importlib.metadata
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+from packaging.requirements import Requirement
+from packaging.specifiers import SpecifierSet
+from packaging.utils import canonicalize_name
+from packaging.version import Version
+
+ROOT = Path(__file__).resolve().parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+CONDA = yaml.safe_load((ROOT / "environment.yml").read_text(encoding="utf-8"))
+LOCK = (ROOT / "requirements.lock").read_text(encoding="utf-8").splitlines()
+
+
+def asks_of_pyproject():
+    """{package: version range}"""
+    extras = PROJECT["optional-dependencies"].values()
+    asked = [Requirement(text) for text in sum(extras, start=[*PROJECT["dependencies"]])]
+    return {canonicalize_name(ask.name): ask.specifier for ask in asked}
+
+
+def asks_of_conda():
+    """{package: version range}"""
+    asked = [re.fullmatch(r"([\w.-]+)\s*(.*)", text).groups() for text in CONDA["dependencies"]]
+    return {canonicalize_name(name): SpecifierSet(versions) for name, versions in asked}
+
+
+ASKS = asks_of_pyproject()
+
+
+def test_conda_and_pip_ask_for_the_same():
+    conda = asks_of_conda()
+    assert conda.pop("python") == SpecifierSet(PROJECT["requires-python"])
+    assert conda.pop("pip") == SpecifierSet()
+    assert conda == ASKS
+    assert CONDA["channels"] == ["conda-forge"]
+
+
+def test_every_ask_has_a_lower_bound():
+    for name, versions in ASKS.items():
+        assert any(version.operator in (">=", "~=", "==") for version in versions), name
+
+
+@pytest.mark.parametrize("name", ASKS)
+def test_lock_is_within_the_asked_range(name):
+    locked = [Requirement(line) for line in LOCK]
+    versions = [next(iter(lock.specifier)).version for lock in locked if canonicalize_name(lock.name) == name]
+    assert versions, f"not locked; run `make lock` after a change of pyproject.toml: {name}"
+    assert all(ASKS[name].contains(version) for version in versions)
+
+
+@pytest.mark.parametrize("name", ASKS)
+def test_installed_version_is_within_the_asked_range(name):
+    try:
+        installed = importlib.metadata.version(name)
+    except importlib.metadata.PackageNotFoundError:
+        if name in {canonicalize_name(Requirement(text).name) for text in PROJECT["optional-dependencies"]["dev"]}:
+            pytest.skip("only needed to install and to lock")
+        raise
+    assert ASKS[name].contains(Version(installed))
+
+
+def test_lock_names_versions_and_nothing_else():
+    """No addresses, hashes or options: every index serves it."""
+    for line in LOCK:
+        assert re.fullmatch(r"[a-z0-9.-]+==[0-9a-z.+!]+( ; [\w .<>='()!]+)?", line), line
+    names = [line.split("==")[0] for line in LOCK]
+    assert names == sorted(names)
+
+
+def test_lock_serves_other_platforms():
+    text = "\n".join(LOCK)
+    for line in ("colorama==", "pywinpty==", "appnope=="):
+        assert line in text
+
+
+def test_the_package_is_installed_in_place():
+    import railbridge
+
+    assert Path(railbridge.__file__).resolve().parent == ROOT / "helpers" / "railbridge"
+    assert importlib.metadata.version("railbridge") == PROJECT["version"]
+
+
+def test_import_is_light():
+    """Plots, tables and panels load what they need when they are used."""
+    code = "import sys, railbridge; print([m for m in ('matplotlib', 'pandas', 'ipywidgets') if m in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stdout.strip() == "[]", done.stdout + done.stderr
