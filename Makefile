@@ -20,7 +20,7 @@ env:  ## create or update .venv (every target below does this first)
 	@$(PYTHON) tools/bootstrap.py
 
 lab: env  ## open JupyterLab on the first notebook
-	$(BIN)/python -m jupyterlab notebooks/00_start_here.ipynb $(ARGS)
+	$(BIN)/python -m jupyterlab --LabApp.default_url=/lab/tree/notebooks/00_start_here.ipynb $(ARGS)
 
 test: env  ## run all tests: unit, property and notebook tests
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist loadscope $(ARGS)

@@ -152,9 +152,7 @@ def test_pip_settings_become_uv_settings(bootstrap, monkeypatch):
         install.timeout='60'
         freeze.timeout='1'
         """
-    monkeypatch.setattr(
-        bootstrap.subprocess, "run", lambda *a, **k: subprocess.CompletedProcess(a, 0, stdout=listing, stderr="")
-    )
+    monkeypatch.setattr(bootstrap.subprocess, "run", lambda *a, **k: subprocess.CompletedProcess(a, 0, stdout=listing, stderr=""))
     monkeypatch.setattr(bootstrap.os, "environ", {"SSL_CERT_FILE": "/mine.pem", "PATH": "/bin"})
     environment = bootstrap.uv_environment(bootstrap.pip_settings("python"))
     assert environment["UV_FIND_LINKS"] == "/wheels"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 MEND = (["ruff", "check", "--fix", "--quiet"], ["ruff", "format", "--quiet"])
-CHECKS = (["ruff", "check"], ["ruff", "format", "--check"], ["lint-imports"])
+CHECKS = (["ruff", "check"], ["ruff", "format", "--check"], ["lint-imports", "--no-logo"])
 
 
 def run(program, *arguments):
