@@ -1,0 +1,334 @@
+r"""A deck is a modal deck: frequencies, damping, shapes along its axis, and how to recover what was asked.
+
+With mass-normalised shapes v_m, w_m (lateral, vertical) and theta_m (twist) each mode obeys
+
+    q'' + 2 zeta omega q' + omega^2 q
+        = sum over loads of (v F_y + w F_z + theta M_x - w' M_y + v' M_z) at the load's place x = V t - d,
+
+with M_x about the deck axis. A wheel at y, riding on the deck, moves by ``w + y theta`` and its support velocity is the
+total derivative ``w q' + V w' q``: the second, convective term is the climb along the deflected deck.
+
+Section forces and reactions are recovered as ``sum S_m q_m`` plus the static correction of the modes left out, which is
+the static influence line under the present loads minus its modal part. They are the elastic ones: the stiffness-
+proportional part of the damping is not counted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from . import inputs
+from .inputs import InputError
+from .response import SampledResponse, oscillator
+
+__all__ = ["COMPONENTS", "Deck", "History", "Line", "PiecewiseCubic", "Recovery", "Stations", "rayleigh", "rayleigh_ratio"]
+
+COMPONENTS = ("y", "z", "roll")
+"""What a shape consists of: lateral, vertical, twist."""
+
+
+def rayleigh(ratio: float, frequencies_hz: Sequence[float]) -> tuple[float, float]:
+    """Return alpha (1/s) and beta (s) that give one damping ratio at two frequencies (Hz).
+
+    ``zeta = alpha / (2 omega) + beta omega / 2``; Section 2.4 of the paper asks 3 % at modes 1 and 5.
+    """
+    ratio = inputs.number("damping.ratio", ratio, least=0.0, most=0.5)
+    f1, f2 = inputs.numbers("damping.frequencies_hz", frequencies_hz, count=2, above=0.0, unit="Hz")
+    if f1 == f2:
+        raise InputError("damping.frequencies_hz", list(frequencies_hz), "must be two different frequencies")
+    w1, w2 = 2 * np.pi * f1, 2 * np.pi * f2
+    return float(2 * ratio * w1 * w2 / (w1 + w2)), float(2 * ratio / (w1 + w2))
+
+
+def rayleigh_ratio(alpha: float, beta: float, frequencies_hz: np.ndarray) -> np.ndarray:
+    """Return the damping ratio at each frequency (Hz)."""
+    omega = 2 * np.pi * np.asarray(frequencies_hz, dtype=float)
+    return alpha / (2 * omega) + beta * omega / 2
+
+
+@dataclass(frozen=True)
+class PiecewiseCubic:
+    """Functions along the deck, cubic between edges.
+
+    Attributes
+    ----------
+    edges : ndarray, shape (e + 1,)
+        m, ascending.
+    coefficients : ndarray, shape (e, 4, n, 3)
+        Powers 0..3 of the local coordinate 0..1, for n functions of three components (y, z, roll).
+    """
+
+    edges: np.ndarray
+    coefficients: np.ndarray
+
+    def __call__(self, x: np.ndarray, derivative: int = 0) -> np.ndarray:
+        """Evaluate at x (m), shape (k,), or differentiate up to twice by x; returns shape (k, n, 3). Zero off the deck."""
+        x = np.asarray(x, dtype=float)
+        i = np.clip(np.searchsorted(self.edges, x, side="right") - 1, 0, len(self.edges) - 2)
+        h = np.diff(self.edges)[i]
+        local = (x - self.edges[i]) / h
+        factors = np.zeros((4, len(x)))
+        for p in range(derivative, 4):
+            factors[p] = np.prod(range(p - derivative + 1, p + 1)) * local ** (p - derivative) / h**derivative
+        factors[:, (x < self.edges[0] - 1e-9) | (x > self.edges[-1] + 1e-9)] = 0.0
+        return np.einsum("pk,kpnc->knc", factors, self.coefficients[i])
+
+
+@dataclass(frozen=True)
+class Line:
+    """How one output follows from the deck's state and loads.
+
+    Attributes
+    ----------
+    modal : ndarray, shape (modes,)
+        Output per unit modal coordinate, S_m.
+    influence : PiecewiseCubic
+        Static influence line of the three load components.
+    self_weight : float
+        The output under the deck's own weight.
+    """
+
+    modal: np.ndarray
+    influence: PiecewiseCubic
+    self_weight: float
+
+
+class Recovery(Protocol):
+    """What a deck maker provides so that section forces and reactions can be recovered."""
+
+    def section(self, quantity: str, x: float) -> Line | None:
+        """Return the line of a displacement or section force at x, None where the deck has no such stiffness."""
+
+    def reaction(self, quantity: str, support: float) -> Line | None:
+        """Return the line of a reaction, None where that freedom is not held."""
+
+
+@dataclass(frozen=True)
+class History:
+    """Named time histories with units.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s.
+    values : dict of ndarray, shape (n,)
+        By name; NaN where the deck has no such stiffness.
+    units : dict of str
+    """
+
+    time: np.ndarray
+    values: dict[str, np.ndarray]
+    units: dict[str, str]
+    where: str = ""
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self.values:
+            raise InputError("name", name, "no such history", inputs.did_you_mean(name, self.values))
+        return self.values[name]
+
+    def to_frame(self):
+        """Return a pandas DataFrame, one column a history, indexed by time."""
+        import pandas as pd
+
+        columns = {f"{name} ({self.units[name]})": v for name, v in self.values.items()}
+        return pd.DataFrame(columns, index=pd.Index(self.time, name="t (s)"))
+
+    def extreme(self, name: str) -> tuple[float, float]:
+        """Return the value of largest magnitude, signed, and its time (s)."""
+        values = self[name]
+        i = int(np.argmax(np.abs(values)))
+        return float(values[i]), float(self.time[i])
+
+
+@dataclass(frozen=True)
+class Stations:
+    """Loads that travel together along the deck: when each is on it, and the shapes it meets there.
+
+    Attributes
+    ----------
+    starts : ndarray of int, shape (s,)
+        First sample of each station on the deck.
+    counts : ndarray of int, shape (s,)
+        Number of samples on the deck.
+    tables : tuple of (values, slopes)
+        Shape values and slopes met, each shape (pairs, samples) over the (mode, component) pairs that are not zero.
+    which : ndarray of int, shape (s,)
+        Table of each station; stations that meet the grid alike share one.
+    pairs : tuple of ndarray
+        Mode and component of each pair, sorted by component.
+    speed : float
+        m/s.
+    """
+
+    starts: np.ndarray
+    counts: np.ndarray
+    tables: tuple[tuple[np.ndarray, np.ndarray], ...]
+    which: np.ndarray
+    pairs: tuple[np.ndarray, np.ndarray]
+    speed: float
+
+    def __iter__(self):
+        """Yield (first sample, values, slopes) of every station."""
+        for start, count, which in zip(self.starts, self.counts, self.which, strict=True):
+            values, slopes = self.tables[which]
+            yield int(start), values[:, :count], slopes[:, :count]
+
+    def _component(self, c: int) -> slice:
+        return slice(*np.searchsorted(self.pairs[1], [c, c + 1]))
+
+    def modal_force(self, loads: Sequence[np.ndarray], modes: int, samples: int) -> np.ndarray:
+        """Return the modal forces of all loads.
+
+        Parameters
+        ----------
+        loads : sequence of ndarray, each shape (3 or 5, count)
+            F_y, F_z (N), M_x about the deck axis (N m), and M_y, M_z if the load has them, while on the deck.
+        modes, samples : int
+
+        Returns
+        -------
+        ndarray, shape (modes, samples)
+        """
+        total = np.zeros((modes, samples))
+        for (start, values, slopes), load in zip(self, loads, strict=True):
+            window = slice(start, start + values.shape[1])
+            for c in range(3):
+                pairs = self._component(c)
+                part = values[pairs] * load[c]
+                if len(load) == 5 and c < 2:
+                    # A couple does work on the slope: M_z on v', and M_y on theta_y = -w'.
+                    part += slopes[pairs] * (load[4] if c == 0 else -load[3])
+                total[self.pairs[0][pairs], window] += part
+        return total
+
+    def motion(self, q: np.ndarray, velocity: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Return what each station meets: y, z, roll of the deck and their total time derivatives, each shape (3, count)."""
+        # The rate needs (V slope, value) times (q, q'): stacked, both are one product.
+        states = [np.concatenate([q[m], velocity[m]]) for m in (self.pairs[0][self._component(c)] for c in range(3))]
+        stacked = [
+            [np.concatenate([self.speed * slopes[p], values[p]]) for p in map(self._component, range(3))]
+            for values, slopes in self.tables
+        ]
+        result = []
+        for start, count, which in zip(self.starts, self.counts, self.which, strict=True):
+            moved, rate = np.empty((3, count)), np.empty((3, count))
+            for c, (state, table) in enumerate(zip(states, stacked[which], strict=True)):
+                half = len(state) // 2
+                window = state[:, start : start + count]
+                np.einsum("pt,pt->t", table[half:, :count], window[:half], out=moved[c])
+                np.einsum("pt,pt->t", table[:, :count], window, out=rate[c])
+            result.append((moved, rate))
+        return result
+
+
+@dataclass(frozen=True)
+class Deck:
+    """A modal deck.
+
+    Attributes
+    ----------
+    name : str
+    length : float
+        m.
+    frequencies_hz, damping_ratios : ndarray, shape (m,)
+    mode_names : tuple of str
+        For instance ``vertical bending 1``.
+    shapes : PiecewiseCubic
+        Mass-normalised shapes of m modes (1/sqrt(kg), and 1/(m sqrt(kg)) for twist).
+    supports : tuple of float
+        Places of the bearing lines, m.
+    recovery : Recovery or None
+        How section forces and reactions follow; None where only modes are known.
+    tracks : dict of float
+        Distance of each named track to the left of the axis, m.
+    width : float or None
+        m.
+    mass_per_metre : float or None
+        kg/m.
+    """
+
+    name: str
+    length: float
+    frequencies_hz: np.ndarray
+    damping_ratios: np.ndarray
+    mode_names: tuple[str, ...]
+    shapes: PiecewiseCubic
+    supports: tuple[float, ...] = ()
+    recovery: Recovery | None = field(default=None, repr=False)
+    tracks: dict[str, float] = field(default_factory=dict)
+    width: float | None = None
+    mass_per_metre: float | None = None
+
+    @property
+    def has(self) -> dict[str, bool]:
+        """Whether the deck moves in y, z and roll."""
+        return dict(zip(COMPONENTS, np.any(self.shapes.coefficients != 0.0, axis=(0, 1, 2)).tolist(), strict=True))
+
+    def to_frame(self):
+        """Return a pandas DataFrame with one row a mode."""
+        import pandas as pd
+
+        columns = {"frequency (Hz)": self.frequencies_hz, "damping ratio": self.damping_ratios, "name": self.mode_names}
+        return pd.DataFrame(columns, index=pd.RangeIndex(1, len(self.mode_names) + 1, name="mode"))
+
+    def track_offset(self, track: float | str) -> float:
+        """Return a track's distance to the left of the axis, m, from its name or from the number itself."""
+        if isinstance(track, str):
+            inputs.choice("train.track", track, self.tracks or ["0.0 (the deck file names no track)"])
+            return self.tracks[track]
+        limit = self.width / 2 if self.width else None
+        return inputs.number("train.track", track, least=None if limit is None else -limit, most=limit, unit="m")
+
+    def stations(self, delays: np.ndarray, speed: float, time_step: float, samples: int) -> Stations:
+        """Prepare loads that are `delays` (m, shape (s,)) behind x = V t.
+
+        A load counts while 0 <= x <= length, with a ten-thousandth of a step of tolerance, so that rounding does not decide
+        whether a sample at the very end is on the deck.
+        """
+        advance = speed * time_step
+        slack = 1e-4
+        starts = np.ceil(np.asarray(delays) / advance - slack).astype(int)
+        last = np.floor((np.asarray(delays) + self.length) / advance + slack).astype(int)
+        counts = np.minimum(last, samples - 1) - starts + 1
+        first = starts * advance - delays
+        mode, component = np.nonzero(np.any(self.shapes.coefficients != 0.0, axis=(0, 1)))
+        order = np.lexsort((mode, component))
+        pairs = mode[order], component[order]
+        keys = np.round(first / advance, 9)
+        unique, which = np.unique(keys, return_inverse=True)
+        tables = []
+        for key in unique:
+            x = key * advance + advance * np.arange(counts[keys == key].max())
+            x = np.clip(x, 0.0, self.length)
+            tables.append(tuple(np.ascontiguousarray(self.shapes(x, d)[:, pairs[0], pairs[1]].T) for d in (0, 1)))
+        return Stations(starts, np.maximum(counts, 0), tuple(tables), which, pairs, speed)
+
+    def sampled(self, time_step: float) -> list[SampledResponse]:
+        """Prepare every mode for one time step (s); each takes its modal force and gives coordinate and velocity."""
+        omega = 2 * np.pi * self.frequencies_hz
+        return [oscillator(w, z).sampled(time_step) for w, z in zip(omega, self.damping_ratios, strict=True)]
+
+    def acceleration(self, q: np.ndarray, velocity: np.ndarray, modal_force: np.ndarray) -> np.ndarray:
+        """Return modal accelerations from the equation of motion."""
+        omega = (2 * np.pi * self.frequencies_hz)[:, None]
+        return modal_force - 2 * self.damping_ratios[:, None] * omega * velocity - omega**2 * q
+
+    def recovered(self, line: Line | None, q: np.ndarray, modal_force: np.ndarray, static: np.ndarray) -> np.ndarray:
+        """Return an output history: modal part plus the static correction of the modes left out.
+
+        Parameters
+        ----------
+        line : Line or None
+            NaN is returned for None.
+        q, modal_force : ndarray, shape (modes, n)
+        static : ndarray, shape (n,)
+            The influence line under the present loads.
+        """
+        if line is None:
+            return np.full(q.shape[1], np.nan)
+        omega2 = (2 * np.pi * self.frequencies_hz) ** 2
+        return line.modal @ q + static - (line.modal / omega2) @ modal_force
