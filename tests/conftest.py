@@ -1,3 +1,8 @@
 import matplotlib
+from hypothesis import settings
 
 matplotlib.use("agg")  # figures are drawn into memory; no test opens a window
+
+# The same examples in every run, and no time limit for one of them: the machine may be busy.
+settings.register_profile("suite", deadline=None, derandomize=True)
+settings.load_profile("suite")

@@ -1,10 +1,12 @@
 """One set of asks: pyproject.toml, environment.yml, requirements.lock and what is installed agree."""
 
 import importlib.metadata
+import os
 import re
 import subprocess
 import sys
 import tomllib
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -86,7 +88,7 @@ def test_the_package_is_installed_in_place():
     import railbridge
 
     assert Path(railbridge.__file__).resolve().parent == ROOT / "helpers" / "railbridge"
-    assert importlib.metadata.version("railbridge") == PROJECT["version"]
+    assert railbridge.__version__ == importlib.metadata.version("railbridge") == PROJECT["version"]
 
 
 def test_import_is_light():
@@ -94,3 +96,20 @@ def test_import_is_light():
     code = "import sys, railbridge; print([m for m in ('matplotlib', 'pandas', 'ipywidgets') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stdout.strip() == "[]", done.stdout + done.stderr
+
+
+def test_a_built_wheel_carries_the_data(tmp_path):
+    """Someone who installs the wheel has no folder `data/` beside the package."""
+    build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(tmp_path)]
+    if subprocess.run([sys.executable, "-c", "import hatchling"], capture_output=True).returncode:
+        pytest.skip("the build backend is not installed")
+    subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
+    with zipfile.ZipFile(next(tmp_path.glob("railbridge-*.whl"))) as wheel:
+        wheel.extractall(tmp_path / "site")
+    carried = {path.name for path in (tmp_path / "site" / "railbridge" / "data").rglob("*.*")}
+    assert carried == {path.name for path in (ROOT / "data").rglob("*.*")}
+    code = "import railbridge as rb; print(rb.__file__); rb.vehicle('xia2000'); rb.deck('viaduct36')"
+    paths = {**os.environ, "PYTHONPATH": str(tmp_path / "site")}
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=paths, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert Path(done.stdout.strip()).is_relative_to(tmp_path.resolve())
