@@ -1,0 +1,49 @@
+"""What happens when a train crosses a railway bridge.
+
+The ten lines everything else supports::
+
+    import numpy as np
+    import railbridge as rb
+
+    train = rb.Train(rb.vehicle("xia2000"), cars=8, car_spacing=22.5)
+    deck = rb.deck("viaduct36")
+    track = rb.Track(vertical=rb.Harmonic(5e-3, wavelength=14.4))
+    run = rb.cross(train, deck, track, speed=20.0)
+    run.displacement(x=18.0).to_frame()
+
+Everything is SI inside: m, kg, s, N. See the README for the conventions.
+"""
+
+from importlib import import_module as _import_module
+
+from .beam import Beam, Bearing, deck, deck_from_table
+from .case import Case, case
+from .crossing import Crossing, NotConvergedError, cross
+from .deck import Deck, History, rayleigh, rayleigh_ratio
+from .inputs import InputError
+from .spectra import Spectrum, amplitude_spectrum, deviation_percent
+from .track import Harmonic, Level, Notch, Rails, Table, Track
+from .train import AxleTrain, Train, steady_forces
+from .vehicle import Body, Spring, Vehicle, planar_car, sprung_mass, vehicle
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "AxleTrain", "Beam", "Bearing", "Body", "Case", "Crossing", "Deck", "Harmonic", "History", "InputError", "Level",
+    "NotConvergedError", "Notch", "Rails", "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum",
+    "case", "cross", "deck", "deck_from_table", "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio", "sprung_mass",
+    "steady_forces", "vehicle",
+]  # fmt: skip
+
+_LAZY = ("panels", "paper", "plots")
+
+
+def __getattr__(name: str):
+    """Load the floors that need matplotlib or widgets only when they are first used."""
+    if name in _LAZY:
+        return _import_module(f".{name}", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, *_LAZY])

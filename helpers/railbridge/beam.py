@@ -138,7 +138,9 @@ class Beam:
             raise InputError(f"{where}: {missing}", None, "is missing", "Twist needs torsional_stiffness and polar_inertia")
         if not self.bearings:
             lines = np.concatenate([[0.0], np.cumsum(spans)])
-            held = tuple(Bearing(x, ("y", "z", "roll", "x") if i == 0 else ("y", "z", "roll")) for i, x in enumerate(lines.tolist()))
+            held = tuple(
+                Bearing(x, ("y", "z", "roll", "x") if i == 0 else ("y", "z", "roll")) for i, x in enumerate(lines.tolist())
+            )
             object.__setattr__(self, "bearings", held)
         for i, bearing in enumerate(self.bearings, start=1):
             here = f"{where}: bearing {i}"
@@ -157,7 +159,12 @@ class Beam:
     @property
     def fields(self) -> tuple[str, ...]:
         """The ways this beam can move: axial, lateral, vertical, torsion."""
-        stiffness = (self.axial_stiffness, self.bending_stiffness_lateral, self.bending_stiffness_vertical, self.torsional_stiffness)
+        stiffness = (
+            self.axial_stiffness,
+            self.bending_stiffness_lateral,
+            self.bending_stiffness_vertical,
+            self.torsional_stiffness,
+        )
         return tuple(f for f, s in zip(_FIELDS, stiffness, strict=True) if s is not None)
 
     def _refuse_mechanism(self) -> None:
@@ -440,8 +447,22 @@ class _BeamRecovery:
         return Line(modal, influence, float(-beam.mass * G * dx @ line[:, COMPONENTS.index("z")]))
 
 
-_STIFFNESSES = ("bending_stiffness_vertical", "bending_stiffness_lateral", "torsional_stiffness", "axial_stiffness", "polar_inertia")
-_SECTION = ("youngs_modulus", "poisson_ratio", "density", "area", "second_moment_vertical", "second_moment_lateral", "torsion_constant")
+_STIFFNESSES = (
+    "bending_stiffness_vertical",
+    "bending_stiffness_lateral",
+    "torsional_stiffness",
+    "axial_stiffness",
+    "polar_inertia",
+)
+_SECTION = (
+    "youngs_modulus",
+    "poisson_ratio",
+    "density",
+    "area",
+    "second_moment_vertical",
+    "second_moment_lateral",
+    "torsion_constant",
+)
 
 
 def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
@@ -472,7 +493,13 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
         inputs.keys(where, content, content, ["bending_stiffness_vertical"])
         properties = {k: content[k] for k in (*_STIFFNESSES, "mass") if k in content}
     bearings = tuple(_bearing(where, i, b) for i, b in enumerate(content.get("bearing", []), start=1))
-    beam = Beam(name, inputs.numbers(f"{where}: spans", spans, above=0.0, unit="m"), bearings=bearings, elements=content.get("elements"), **properties)
+    beam = Beam(
+        name,
+        inputs.numbers(f"{where}: spans", spans, above=0.0, unit="m"),
+        bearings=bearings,
+        elements=content.get("elements"),
+        **properties,
+    )
     width = content.get("width")
     width = None if width is None else inputs.number(f"{where}: width", width, above=0.0, unit="m")
     tracks = inputs.table(f"{where}: tracks", content.get("tracks", {}))

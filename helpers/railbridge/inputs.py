@@ -10,7 +10,8 @@ import csv
 import difflib
 import math
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +32,7 @@ __all__ = [
     "read_toml",
     "table",
     "text",
+    "within",
 ]
 
 G = 9.81
@@ -329,3 +331,13 @@ def read_parameters(path: Path, expected: Mapping[str, str]) -> dict[str, float]
     if missing:
         raise InputError(f"{where}: row {missing[0]}", None, "is missing", "Rows missing: " + ", ".join(missing))
     return result
+
+
+@contextmanager
+def within(path: str) -> Iterator[None]:
+    """Put a path before the field of any `InputError` raised inside: ``x`` becomes ``track.vertical.x``."""
+    try:
+        yield
+    except InputError as error:
+        known = error.field == path or error.field.startswith(f"{path}.") or error.field.startswith(f"{path}[")
+        raise InputError(error.field if known else f"{path}.{error.field}", error.value, error.allowed, error.remedy) from None

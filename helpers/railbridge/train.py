@@ -96,7 +96,9 @@ class Train:
 
     def __post_init__(self) -> None:
         if isinstance(self.vehicle, Vehicle):
-            object.__setattr__(self, "cars", inputs.integer("train.cars", 1 if self.cars is None else self.cars, least=1, most=1000))
+            object.__setattr__(
+                self, "cars", inputs.integer("train.cars", 1 if self.cars is None else self.cars, least=1, most=1000)
+            )
         else:
             if not self.vehicle or not all(isinstance(v, Vehicle) for v in self.vehicle):
                 raise InputError("train.vehicle", self.vehicle, "must be a Vehicle or one Vehicle for each car")
@@ -294,7 +296,9 @@ class AxleTrain:
     @cached_property
     def wheels(self) -> tuple[Wheel, ...]:
         """One wheel for each axle, on the track's centre line."""
-        return tuple(Wheel(1, i, a, 0.0, "left", p, "axle") for i, (a, p) in enumerate(zip(self.axles, self.loads, strict=True), 1))
+        return tuple(
+            Wheel(1, i, a, 0.0, "left", p, "axle") for i, (a, p) in enumerate(zip(self.axles, self.loads, strict=True), 1)
+        )
 
     @property
     def length(self) -> float:

@@ -1,0 +1,235 @@
+"""A crossing as data: one table of tables that notebooks, panels and scenarios all use.
+
+The vocabulary is that of the README's case table: ``deck``, ``train``, ``track``, ``run``, ``output``. A case is checked as
+a whole when it is made, before anything is computed, and errors carry the path of the key, as in ``run.speed``.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from pprint import pformat
+from typing import Any
+
+import numpy as np
+
+from . import beam, inputs
+from .crossing import Crossing, cross
+from .deck import Deck
+from .inputs import InputError
+from .settings import check
+from .track import Harmonic, Irregularity, Level, Notch, Rails, Table, Track
+from .train import AxleTrain, Train
+from .vehicle import Vehicle, vehicle
+
+__all__ = ["Case", "case"]
+
+RUN_KEYS = (
+    "speed", "time_step", "loads", "interaction", "tolerance", "lead_in", "tail", "max_iterations", "iterations", "relaxation",
+    "excitation", "feedback",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Case:
+    """A checked crossing, ready to run.
+
+    Attributes
+    ----------
+    content : dict
+        The tables as given.
+    train : Train or AxleTrain
+    deck : Deck
+    track : Track
+    options : dict
+        Keyword arguments of `cross`.
+    points : ndarray
+        Places of interest along the deck, m.
+    """
+
+    content: dict[str, Any]
+    train: Train | AxleTrain = field(init=False, repr=False)
+    deck: Deck = field(init=False, repr=False)
+    track: Track = field(init=False, repr=False)
+    options: dict[str, Any] = field(init=False, repr=False)
+    points: np.ndarray = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        content = copy.deepcopy(inputs.table("case", self.content))
+        inputs.keys("", content, ["track", "output"], ["deck", "train", "run"])
+        run = inputs.table("run", content["run"])
+        inputs.keys("run", run, RUN_KEYS, ["speed"])
+        train, offset = _train(content["train"])
+        deck = _deck(content["deck"])
+        track = _track(content.get("track", {}))
+        options = {**run, "track_offset": offset}
+        check(train, deck, track, **options)
+        output = inputs.table("output", content.get("output", {}))
+        inputs.keys("output", output, ["points"])
+        points = output.get("points", [deck.length / 2])
+        points = inputs.numbers("output.points", points, least=0.0, most=deck.length, unit="m")
+        for name, value in [
+            ("content", content),
+            ("train", train),
+            ("deck", deck),
+            ("track", track),
+            ("options", options),
+            ("points", points),
+        ]:
+            object.__setattr__(self, name, value)
+
+    def replace(self, changes: Mapping[str, Any]) -> Case:
+        """Return a case with some keys changed.
+
+        Parameters
+        ----------
+        changes : mapping
+            New values by path, for instance ``{"run.speed": 22.0, "track.vertical.wavelength": 15.0}``. A value of None
+            takes the key away.
+        """
+        content = copy.deepcopy(self.content)
+        for path, value in changes.items():
+            *parents, last = path.split(".")
+            place = content
+            for parent in parents:
+                place = place.setdefault(parent, {})
+                if not isinstance(place, dict):
+                    raise InputError(path, value, f"{parent} is not a table, so the path leads nowhere")
+            if value is None:
+                place.pop(last, None)
+            else:
+                place[last] = value
+        return Case(content)
+
+    def get(self, path: str) -> Any:
+        """Return the value at a path, None if it is not given."""
+        place: Any = self.content
+        for part in path.split("."):
+            place = place.get(part) if isinstance(place, dict) else None
+        return copy.deepcopy(place)
+
+    def run(self) -> Crossing:
+        """Compute the crossing; see `cross`."""
+        return cross(self.train, self.deck, self.track, **self.options)
+
+    def code(self) -> str:
+        """Return Python lines that build and run this very case."""
+        tables = pformat(self.content, width=100, sort_dicts=False)
+        place = f"{self.points[0]:g}"
+        return f"import railbridge as rb\n\ncase = rb.Case({tables})\nrun = case.run()\nrun.displacement(x={place}).to_frame()\n"
+
+
+def case(source: str | Path | Mapping[str, Any]) -> Case:
+    """Load a case by shipped name (``paper``), from a ``.toml`` file, or from tables.
+
+    Raises
+    ------
+    InputError
+        Unknown name or bad content.
+    """
+    if isinstance(source, Mapping):
+        return Case(dict(source))
+    path = inputs.data_file("cases", source)
+    if path.suffix != ".toml":
+        raise InputError("case", str(source), "case files are TOML")
+    return Case(inputs.read_toml(path))
+
+
+def _deck(raw: Any) -> Deck:
+    content = inputs.table("deck", raw)
+    if "file" not in content:
+        return _cached_deck("deck", json.dumps(content, sort_keys=True, default=str))
+    inputs.keys("deck", content, ["modes", "damping"], ["file"])
+    path = inputs.data_file("decks", content["file"])
+    if path.suffix != ".toml":
+        raise InputError("deck.file", str(content["file"]), "deck files are TOML")
+    table = {**inputs.read_toml(path), **{k: v for k, v in content.items() if k != "file"}}
+    return _cached_deck(path.stem, json.dumps(table, sort_keys=True, default=str))
+
+
+@lru_cache(maxsize=16)
+def _cached_deck(name: str, content: str) -> Deck:
+    """Make a deck once: a slider that changes the speed must not assemble it again."""
+    return beam.deck_from_table(name, json.loads(content))
+
+
+@lru_cache(maxsize=16)
+def _cached_vehicle(name: str, stamp: float) -> Vehicle:
+    return vehicle(name)
+
+
+def _vehicle(name: Any) -> Vehicle:
+    path = inputs.data_file("vehicles", name)
+    return _cached_vehicle(str(name), path.stat().st_mtime)
+
+
+def _train(raw: Any) -> tuple[Train | AxleTrain, float | str]:
+    if isinstance(raw, list):
+        raise InputError("train", raw, "several trains on one deck are not supported yet", "Give one [train]")
+    t = inputs.table("train", raw)
+    with inputs.within("train"):
+        offset = t.get("track", 0.0)
+        if "axles" in t or "loads" in t:
+            inputs.keys("train", t, ["track"], ["axles", "loads"])
+            return AxleTrain(t["axles"], t["loads"]), offset
+        inputs.keys("train", t, ["vehicle", "cars", "car_spacing", "track", "notch"])
+        notches = tuple(_notch(i, n) for i, n in enumerate(t.get("notch", []), start=1))
+        spacing = t.get("car_spacing")
+        if isinstance(t.get("cars"), list):
+            if "vehicle" in t:
+                raise InputError("train.vehicle", t["vehicle"], "give either vehicle with a number of cars, or a list of cars")
+            return Train(tuple(v for i, c in enumerate(t["cars"], 1) for v in _cars(i, c)), None, spacing, notches), offset
+        inputs.keys("train", t, t, ["vehicle"])
+        return Train(_vehicle(t["vehicle"]), t.get("cars", 1), spacing, notches), offset
+
+
+def _cars(i: int, raw: Any) -> tuple[Vehicle, ...]:
+    if isinstance(raw, str):
+        return (_vehicle(raw),)
+    c = inputs.table(f"train.cars[{i}]", raw)
+    inputs.keys(f"train.cars[{i}]", c, ["count"], ["vehicle"])
+    return (_vehicle(c["vehicle"]),) * inputs.integer(f"train.cars[{i}].count", c.get("count", 1), least=1, most=1000)
+
+
+def _notch(i: int, raw: Any) -> Notch:
+    where = f"train.notch {i}"
+    n = inputs.table(where, raw)
+    inputs.keys(where, n, ["before_entrance"], ["wheels", "circumference", "offset", "depth", "length"])
+    with inputs.within(where):
+        return Notch(**n)
+
+
+def _track(raw: Any) -> Track:
+    t = inputs.table("track", raw)
+    inputs.keys("track", t, ["vertical", "lateral"])
+    return Track(**{d: _rails(f"track.{d}", t[d]) for d in t})
+
+
+def _rails(where: str, raw: Any) -> Any:
+    if isinstance(raw, Mapping) and ("left" in raw or "right" in raw):
+        inputs.keys(where, raw, ["left", "right"])
+        return Rails(**{s: _irregularity(f"{where}.{s}", raw[s]) for s in raw})
+    return _irregularity(where, raw)
+
+
+_KINDS = {
+    "none": (Level, [], []),
+    "harmonic": (Harmonic, ["wavelength", "phase", "length", "half_waves"], ["amplitude"]),
+    "table": (Table, [], ["x", "r"]),
+}
+
+
+def _irregularity(where: str, raw: Any) -> Irregularity | list:
+    if isinstance(raw, list):
+        return [_irregularity(f"{where}[{i}]", r) for i, r in enumerate(raw)]
+    content = inputs.table(where, raw)
+    inputs.keys(where, content, content, ["kind"])
+    kind = inputs.choice(f"{where}.kind", content.pop("kind"), _KINDS)
+    make, optional, required = _KINDS[kind]
+    inputs.keys(where, content, optional, required)
+    with inputs.within(where):
+        return make(**content)

@@ -1,0 +1,131 @@
+"""How a crossing is computed: every choice checked before anything runs, and what was left open filled in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import inputs
+from .deck import Deck
+from .inputs import InputError
+from .track import Track
+from .train import LOADS, AxleTrain, Train
+
+__all__ = ["Settings", "check", "default_time_step"]
+
+LEAD_IN_SECONDS = 7.5
+SAMPLES_PER_LENGTH = 10
+"""Fewest samples per wavelength or notch."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How a crossing is computed; see `cross`."""
+
+    speed: float
+    time_step: float
+    lead_in: float
+    tail: float
+    track_offset: float
+    loads: str
+    interaction: str
+    tolerance: float
+    max_iterations: int
+    iterations: int | None
+    relaxation: float | str | None
+    excitation: str
+    feedback: str
+
+
+def check(
+    train: Train | AxleTrain,
+    deck: Deck,
+    track: Track,
+    *,
+    speed: float,
+    loads: str = "wheels",
+    interaction: str = "iterate",
+    track_offset: float | str = 0.0,
+    time_step: float | None = None,
+    lead_in: float | None = None,
+    tail: float = 1.0,
+    tolerance: float = 1e-8,
+    max_iterations: int = 50,
+    iterations: int | None = None,
+    relaxation: float | str | None = None,
+    excitation: str = "wheels",
+    feedback: str = "all",
+) -> Settings:
+    """Check the arguments of `cross` without computing anything, and fill in what was left to be chosen.
+
+    Raises
+    ------
+    InputError
+        Naming the argument as a case names it, for instance ``run.speed``.
+    """
+    speed = inputs.number("run.speed", speed, above=0.0, most=200.0, unit="m/s", remedy="Give it in m/s: 72 km/h is 20")
+    inputs.choice("run.loads", loads, LOADS)
+    if interaction == "direct":
+        raise InputError("run.interaction", "direct", "the direct solution is not available yet", "Use 'iterate' or 'rigid'")
+    inputs.choice("run.interaction", interaction, ("iterate", "rigid"))
+    inputs.choice("run.excitation", excitation, ("wheels", "car"))
+    inputs.choice("run.feedback", feedback, ("all", "vertical"))
+    train.condensation(0, loads)
+    lead_in = LEAD_IN_SECONDS * speed if lead_in is None else lead_in
+    if relaxation is not None and not isinstance(relaxation, str):
+        relaxation = inputs.number("run.relaxation", relaxation, above=0.0, most=1.0, remedy="Or use 'aitken'")
+    elif relaxation is not None:
+        inputs.choice("run.relaxation", relaxation, ("aitken",))
+    return Settings(
+        speed=speed,
+        time_step=_time_step(train, deck, track, speed, time_step),
+        lead_in=inputs.number(
+            "run.lead_in", lead_in, least=0.0, most=1e5, unit="m", remedy="0 means level track before the deck"
+        ),
+        tail=inputs.number("run.tail", tail, least=0.0, most=1e4, unit="s"),
+        track_offset=_track_offset(train, deck, track_offset),
+        loads=loads,
+        interaction=interaction,
+        tolerance=inputs.number("run.tolerance", tolerance, above=0.0, most=1.0),
+        max_iterations=inputs.integer("run.max_iterations", max_iterations, least=1, most=10_000),
+        iterations=None if iterations is None else inputs.integer("run.iterations", iterations, least=1, most=10_000),
+        relaxation=relaxation,
+        excitation=excitation,
+        feedback=feedback,
+    )
+
+
+def _track_offset(train: Train | AxleTrain, deck: Deck, given: float | str) -> float:
+    offset = deck.track_offset(given)
+    for w in train.wheels:
+        if deck.width is not None and abs(offset + w.y) > deck.width / 2:
+            off = f"wheel {w.number} of car {w.car} at y = {offset + w.y:g} m is off the deck, half width {deck.width / 2:g} m"
+            raise InputError("train.track", given, off, "Move the track towards the axis, or correct the deck's width")
+    return offset
+
+
+def _time_step(train: Train | AxleTrain, deck: Deck, track: Track, speed: float, given: float | None) -> float:
+    if given is None:
+        return default_time_step(train, track, speed)
+    step = inputs.number("run.time_step", given, above=0.0, unit="s")
+    shortest = min([track.shortest, *(n.shortest for n in train.notches)])
+    for length, samples, what in [(shortest, SAMPLES_PER_LENGTH, "of irregularity"), (deck.length, 20, "of deck")]:
+        if speed * step > length / samples * (1 + 1e-9):
+            few = f"leaves fewer than {samples} samples in {length:g} m {what}; at most {length / samples / speed:.3g} s"
+            raise InputError("run.time_step", step, few, "Leave run.time_step out to have it chosen")
+    return step
+
+
+def default_time_step(train: Train | AxleTrain, track: Track, speed: float) -> float:
+    """Return the time step used when none is given, s.
+
+    At most 1 ms and a twentieth of the shortest wave or notch, and a whole fraction of the time between cars, so that all
+    cars meet the samples alike and are computed together.
+    """
+    shortest = min([track.shortest, *(n.shortest for n in train.notches)])
+    most = min(1e-3, shortest / speed / (2 * SAMPLES_PER_LENGTH))
+    if len(train.centres) == 1:
+        return most
+    between = float(train.centres[1] - train.centres[0]) / speed
+    return between / np.ceil(between / most)
