@@ -18,6 +18,7 @@ from importlib import import_module as _import_module
 
 from .beam import Beam, Bearing, deck, deck_from_table
 from .case import Case, case
+from .checks import compared
 from .crossing import Crossing, NotConvergedError, cross
 from .deck import Deck, History, rayleigh, rayleigh_ratio
 from .inputs import InputError
@@ -31,7 +32,7 @@ __version__ = "0.1.0"
 __all__ = [
     "AxleTrain", "Beam", "Bearing", "Body", "Case", "Crossing", "Deck", "Harmonic", "History", "InputError", "Level",
     "NotConvergedError", "Notch", "Rails", "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum",
-    "case", "cross", "deck", "deck_from_table", "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio", "sprung_mass",
+    "case", "compared", "cross", "deck", "deck_from_table", "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio", "sprung_mass",
     "steady_forces", "vehicle",
 ]  # fmt: skip
 

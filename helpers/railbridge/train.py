@@ -172,8 +172,8 @@ class Train:
         lead_in : float
             Run-up, m; see `FadeIn`.
         excitation : {"wheels", "car"}
-            Whether every wheel meets the track at its own place, or all wheels of a car at its first axle's (a guess at the
-            paper's reading).
+            Whether every wheel meets the track at its own place, or all wheels of a car at the car's front end, length/2 ahead
+            of its middle (a guess at the paper's reading).
 
         Returns
         -------
@@ -209,7 +209,7 @@ class Train:
         met: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
         u = np.empty((2 * len(v.contacts), len(local)))
         for i, contact in enumerate(v.contacts):
-            behind = front - contact.x if excitation == "wheels" else 0.0
+            behind = front - (contact.x if excitation == "wheels" else v.length / 2)
             x = local - behind
             for j, direction in enumerate(("lateral", "vertical")):
                 rail = rails[direction, "right" if contact.y < 0 else "left"]
@@ -358,7 +358,7 @@ def steady_forces(vehicle: Vehicle, track: Track, speed: float, excitation: str 
     wavelength = waves.pop()
     motion = np.zeros(2 * len(vehicle.contacts), dtype=complex)
     for i, contact in enumerate(vehicle.contacts):
-        x = contact.x if excitation == "wheels" else max(c.x for c in vehicle.contacts)
+        x = contact.x if excitation == "wheels" else vehicle.length / 2
         for j, direction in enumerate(("lateral", "vertical")):
             rail = rails[direction, "right" if contact.y < 0 else "left"]
             if hasattr(rail, "wavelength"):
