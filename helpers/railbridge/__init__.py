@@ -32,8 +32,8 @@ __version__ = "0.1.0"
 __all__ = [
     "AxleTrain", "Beam", "Bearing", "Body", "Case", "Crossing", "Deck", "Harmonic", "History", "InputError", "Level",
     "NotConvergedError", "Notch", "Rails", "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum",
-    "case", "compared", "cross", "deck", "deck_from_table", "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio", "sprung_mass",
-    "steady_forces", "vehicle",
+    "case", "compared", "cross", "deck", "deck_from_table", "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio",
+    "sprung_mass", "steady_forces", "vehicle",
 ]  # fmt: skip
 
 _LAZY = ("panels", "paper", "plots")
