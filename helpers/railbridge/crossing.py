@@ -8,8 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from . import inputs
-from .beam import REACTION_QUANTITIES, SECTION_QUANTITIES
-from .deck import Deck, History, Line, Recovery
+from .deck import REACTION_QUANTITIES, SECTION_QUANTITIES, Deck, History, Line, Recovery
 from .inputs import InputError
 from .interaction import Coupling, DeckState, Delta, iterate, prepare
 from .settings import Settings, check

@@ -25,10 +25,20 @@ from . import inputs
 from .inputs import InputError
 from .response import SampledResponse, oscillator
 
-__all__ = ["COMPONENTS", "Deck", "History", "Line", "PiecewiseCubic", "Recovery", "Stations", "rayleigh", "rayleigh_ratio"]
+__all__ = [
+    "COMPONENTS", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line", "PiecewiseCubic", "Recovery",
+    "Stations", "rayleigh", "rayleigh_ratio",
+]  # fmt: skip
 
 COMPONENTS = ("y", "z", "roll")
 """What a shape consists of: lateral, vertical, twist."""
+
+SECTION_QUANTITIES = {
+    "displacement_y": "m", "displacement_z": "m", "rotation_x": "rad",
+    "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m", "shear_vertical": "N", "shear_lateral": "N",
+}  # fmt: skip
+REACTION_QUANTITIES = {"force_y": "N", "force_z": "N", "moment_x": "N m"}
+"""What a deck recovers at a section and at a bearing line, with units."""
 
 
 def rayleigh(ratio: float, frequencies_hz: Sequence[float]) -> tuple[float, float]:
