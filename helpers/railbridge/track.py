@@ -7,6 +7,7 @@ slope dr/dx in closed form, because the wheel force needs ``k r + c V dr/dx``.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -95,7 +96,7 @@ class Harmonic:
         return self.amplitude * k * np.cos(k * x + self.phase)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Table:
     """A measured irregularity: linear between its points, level beyond its ends at their value.
 
@@ -109,10 +110,10 @@ class Table:
     r: np.ndarray
 
     def __post_init__(self) -> None:
-        x = inputs.numbers("table.x", self.x, unit="m")
-        r = inputs.numbers("table.r", self.r, count=len(x), unit="m")
+        x = inputs.numbers("x", self.x, unit="m")
+        r = inputs.numbers("r", self.r, count=len(x), unit="m")
         if len(x) < 2 or np.any(np.diff(x) <= 0):
-            raise InputError("table.x", self.x, "must ascend and hold at least two points", "Sort it and remove doubles")
+            raise InputError("x", self.x, "must ascend and hold at least two points", "Sort it and remove doubles")
         object.__setattr__(self, "x", x)
         object.__setattr__(self, "r", r)
 
@@ -166,10 +167,18 @@ class Track:
     Attributes
     ----------
     vertical, lateral : Irregularity, list of them (summed), Rails, or None (level)
+
+    Raises
+    ------
+    InputError
+        Anything else.
     """
 
     vertical: Irregularity | list | tuple | Rails | None = None
     lateral: Irregularity | list | tuple | Rails | None = None
+
+    def __post_init__(self) -> None:
+        _ = self._rails  # refuses what is no irregularity
 
     def rail(self, direction: str, side: str) -> Irregularity:
         """Return one rail's irregularity.
@@ -179,9 +188,18 @@ class Track:
         direction : {"vertical", "lateral"}
         side : {"left", "right"}
         """
-        given = getattr(self, direction)
-        given = getattr(given, side) if isinstance(given, Rails) else given
-        return _combine(f"track.{direction}", given)
+        return self._rails[direction, side]
+
+    @cached_property
+    def _rails(self) -> dict[tuple[str, str], Irregularity]:
+        """Each rail once: the same object on both sides where the sides do not differ."""
+        result = {}
+        for direction in ("vertical", "lateral"):
+            given = getattr(self, direction)
+            sides = (given.left, given.right) if isinstance(given, Rails) else (given,)
+            rails = [_combine(f"track.{direction}", g) for g in sides]
+            result[direction, "left"], result[direction, "right"] = rails[0], rails[-1]
+        return result
 
     @property
     def shortest(self) -> float:
@@ -232,14 +250,15 @@ class Notch:
     before_entrance: bool = False
 
     def __post_init__(self) -> None:
-        inputs.number("notch.circumference", self.circumference, above=0.0, unit="m")
-        inputs.number("notch.offset", self.offset, unit="m")
-        inputs.number("notch.depth", self.depth, least=0.0, unit="m")
-        inputs.number("notch.length", self.length, above=0.0, most=self.circumference, unit="m")
-        try:
-            wheels = tuple((int(car), int(wheel)) for car, wheel in self.wheels)
-        except (TypeError, ValueError):
-            raise InputError("notch.wheels", self.wheels, "must list pairs [car, wheel], numbered from 1") from None
+        inputs.number("circumference", self.circumference, above=0.0, unit="m")
+        inputs.number("offset", self.offset, unit="m")
+        inputs.number("depth", self.depth, least=0.0, unit="m")
+        inputs.number("length", self.length, above=0.0, most=self.circumference, unit="m")
+        inputs.boolean("before_entrance", self.before_entrance)
+        pairs = self.wheels if isinstance(self.wheels, (list, tuple)) else ()
+        if not pairs or not all(isinstance(pair, (list, tuple)) and len(pair) == 2 for pair in pairs):
+            raise InputError("wheels", self.wheels, "must list pairs [car, wheel], numbered from 1")
+        wheels = tuple(tuple(inputs.integer("wheels", n, least=1) for n in pair) for pair in pairs)
         object.__setattr__(self, "wheels", wheels)
 
     @property
