@@ -213,7 +213,7 @@ class Train:
             x = local - behind
             for j, direction in enumerate(("lateral", "vertical")):
                 rail = rails[direction, "right" if contact.y < 0 else "left"]
-                key = rail.inner, behind
+                key = id(rail.inner), behind
                 if key not in met:
                     met[key] = rail.value(x), speed * rail.slope(x)
                 r, rate = met[key]
@@ -283,8 +283,10 @@ class AxleTrain:
     def __post_init__(self) -> None:
         axles = inputs.numbers("train.axles", self.axles, least=0.0, unit="m")
         loads = inputs.numbers("train.loads", self.loads, count=len(axles), above=0.0, unit="N")
-        if len(axles) == 0 or np.any(np.diff(axles) <= 0):
-            raise InputError("train.axles", list(self.axles), "must hold one axle or more, ascending from 0")
+        if len(axles) == 0 or axles[0] != 0.0 or np.any(np.diff(axles) <= 0):
+            raise InputError(
+                "train.axles", list(self.axles), "must ascend from 0, the first axle", "Subtract the first axle's place from all"
+            )
         object.__setattr__(self, "axles", tuple(axles.tolist()))
         object.__setattr__(self, "loads", tuple(loads.tolist()))
 
