@@ -149,8 +149,12 @@ class Coupling:
         return self.vehicles[kind](longer)[:, 0, u.shape[2] :]
 
     def change(self, new: Delta, old: Delta) -> float:
-        """Return the largest, over wheels and directions, of rms(new - old) / rms(force - static) while on the deck."""
-        floor = 1e-12 * max(np.abs(s).max() for s in self.static)
+        """Return the largest, over wheels and directions, of rms(new - old) / rms(force - static) while on the deck.
+
+        A force that varies by less than a millionth of the largest static wheel load is measured by that instead, since
+        round-off never settles.
+        """
+        floor = 1e-6 * max(np.abs(s).max() for s in self.static)
         worst = 0.0
         for rigid, window, a, b in zip(self.rigid, self.windows, new, old, strict=True):
             moved = np.sqrt(np.mean((a - b) ** 2, axis=1))
