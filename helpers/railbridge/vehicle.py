@@ -13,7 +13,7 @@ below its mid-length.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -214,11 +214,9 @@ class Vehicle:
 
     def _contact_rows(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Stretch rows of the contacts, shape (2 contacts, n), lateral before vertical, with k and c, shape (2 contacts,)."""
-        by_spring = {id(s): [] for s in self._contact_springs}
-        for spring, _, row in self._rows:
-            if id(spring) in by_spring:
-                by_spring[id(spring)].append(row)
-        rows = np.array([row for s in self._contact_springs for row in by_spring[id(s)]])
+        found = [(s, row) for s, _, row in self._rows if "rail" in (s.from_, s.to)]
+        # Sorted as the contacts are; sorting is stable, so lateral stays before vertical.
+        rows = np.array([row for _, row in sorted(found, key=lambda pair: (-pair[0].at[0], -pair[0].at[1]))])
         k = np.array([v for s in self._contact_springs for v in s.stiffness])
         c = np.array([v for s in self._contact_springs for v in s.damping])
         return rows, k, c
@@ -327,8 +325,13 @@ def _check(v: Vehicle) -> None:
         inputs.numbers(f"{here}: damping", spring.damping, count=2, least=0.0, unit="N s/m")
         if max(*spring.stiffness, *spring.damping) == 0.0:
             raise InputError(f"{here}: stiffness", spring.stiffness, "spring and damper are both zero", "Remove it")
-    if not any("rail" in (s.from_, s.to) for s in v.springs):
+    axles = [s.at[0] for s in v.springs if "rail" in (s.from_, s.to)]
+    if not axles:
         raise InputError(f"{where}: spring", None, "no spring reaches the rail", "Give one end of a spring as 'rail'")
+    if min(axles) > 0.0 or max(axles) < 0.0:
+        raise InputError(
+            f"{where}: spring: at", sorted(axles), "all wheels are on one side of x = 0", "Measure x from mid-length"
+        )
 
 
 def _refuse_mechanism(v: Vehicle) -> None:
@@ -409,7 +412,7 @@ def sprung_mass(name: str, mass: float, stiffness: float, damping: float = 0.0, 
 
 def planar_car(car: Vehicle) -> Vehicle:
     """Reduce a car to its vertical plane: bounce and pitch of every body, left and right springs put together at y = 0."""
-    bodies = tuple(Body(b.name, b.mass, b.inertia, b.position, ("z", "pitch")) for b in car.bodies)
+    bodies = tuple(replace(b, freedoms=tuple(f for f in b.freedoms if f in ("z", "pitch"))) for b in car.bodies)
     joined: dict[tuple, Spring] = {}
     for s in car.springs:
         key = (s.from_, s.to, s.at[0], s.at[2])
