@@ -22,6 +22,10 @@ __all__ = ["Beam", "BeamModes", "Bearing", "deck", "deck_from_table"]
 FIXITIES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
+def _where(name: str) -> str:
+    return "deck" if name == "deck" else f"deck {name}"
+
+
 @dataclass(frozen=True)
 class Bearing:
     """A bearing line across the deck at x (m) and the freedoms it holds: a subset of x y z roll pitch yaw."""
@@ -70,10 +74,10 @@ class Beam:
     elements: int | None = None
 
     def __post_init__(self) -> None:
-        where = f"deck {self.name}"
+        where = _where(self.name)
         spans = inputs.numbers(f"{where}: spans", self.spans, above=0.0, unit="m")
-        if len(spans) == 0:
-            raise InputError(f"{where}: spans", [], "must hold at least one span")
+        if not 1 <= len(spans) <= 30:
+            raise InputError(f"{where}: spans", list(self.spans), "must hold 1 to 30 spans")
         object.__setattr__(self, "spans", tuple(spans.tolist()))
         inputs.number(f"{where}: mass", self.mass, above=0.0, unit="kg/m")
         inputs.number(f"{where}: bending_stiffness_vertical", self.bending_stiffness_vertical, above=0.0, unit="N m2")
@@ -95,7 +99,7 @@ class Beam:
             for f in bearing.fixed:
                 inputs.choice(f"{here}: fixed", f, FIXITIES)
         if self.elements is not None:
-            inputs.integer(f"{where}: elements", self.elements, least=2, most=2000)
+            inputs.integer(f"{where}: elements", self.elements, least=2, most=400)
         self._refuse_mechanism()
 
     @property
@@ -220,7 +224,7 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
     InputError
         Missing, unknown, contradictory or wrong keys, or a mechanism.
     """
-    where = f"deck {name}"
+    where = _where(name)
     allowed = ["length", "spans", "section", *_STIFFNESSES, "mass", "damping", "modes", "bearing", "tracks", "width"]
     inputs.keys(where, content, [*allowed, "elements", "name", "source", "note"], ["damping"])
     if ("length" in content) == ("spans" in content):
@@ -236,7 +240,10 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
     else:
         inputs.keys(where, content, content, ["bending_stiffness_vertical"])
         properties = {k: content[k] for k in (*_STIFFNESSES, "mass") if k in content}
-    bearings = tuple(_bearing(where, i, b) for i, b in enumerate(content.get("bearing", []), start=1))
+    given = content.get("bearing", [])
+    if not isinstance(given, list):
+        raise InputError(f"{where}: bearing", given, "must be a list of tables", "Write [[bearing]] with two brackets")
+    bearings = tuple(_bearing(where, i, b) for i, b in enumerate(given, start=1))
     beam = Beam(
         name,
         inputs.numbers(f"{where}: spans", spans, above=0.0, unit="m"),

@@ -59,7 +59,7 @@ class Case:
     points: np.ndarray = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        content = copy.deepcopy(inputs.table("case", self.content))
+        content = {k: inputs.plain(k, v) for k, v in inputs.table("case", self.content).items()}
         inputs.keys("", content, ["track", "output"], ["deck", "train", "run"])
         run = inputs.table("run", content["run"])
         inputs.keys("run", run, RUN_KEYS, ["speed"])
@@ -72,6 +72,8 @@ class Case:
         inputs.keys("output", output, ["points"])
         points = output.get("points", [deck.length / 2])
         points = inputs.numbers("output.points", points, least=0.0, most=deck.length, unit="m")
+        if len(points) == 0:
+            raise InputError("output.points", [], "must hold at least one place", "Leave it out for mid-length")
         for name, value in [
             ("content", content),
             ("train", train),
@@ -93,7 +95,7 @@ class Case:
         """
         content = copy.deepcopy(self.content)
         for path, value in changes.items():
-            *parents, last = path.split(".")
+            *parents, last = inputs.text("path of a change", path).split(".")
             place = content
             for parent in parents:
                 place = place.setdefault(parent, {})
@@ -142,13 +144,13 @@ def case(source: str | Path | Mapping[str, Any]) -> Case:
 def _deck(raw: Any) -> Deck:
     content = inputs.table("deck", raw)
     if "file" not in content:
-        return _cached_deck("deck", json.dumps(content, sort_keys=True, default=str))
+        return _cached_deck("deck", json.dumps(content, sort_keys=True))
     inputs.keys("deck", content, ["modes", "damping"], ["file"])
     path = inputs.data_file("decks", content["file"])
     if path.suffix != ".toml":
         raise InputError("deck.file", str(content["file"]), "deck files are TOML")
     table = {**inputs.read_toml(path), **{k: v for k, v in content.items() if k != "file"}}
-    return _cached_deck(path.stem, json.dumps(table, sort_keys=True, default=str))
+    return _cached_deck(path.stem, json.dumps(table, sort_keys=True))
 
 
 @lru_cache(maxsize=16)
@@ -177,7 +179,10 @@ def _train(raw: Any) -> tuple[Train | AxleTrain, float | str]:
             inputs.keys("train", t, ["track"], ["axles", "loads"])
             return AxleTrain(t["axles"], t["loads"]), offset
         inputs.keys("train", t, ["vehicle", "cars", "car_spacing", "track", "notch"])
-        notches = tuple(_notch(i, n) for i, n in enumerate(t.get("notch", []), start=1))
+        given = t.get("notch", [])
+        if not isinstance(given, list):
+            raise InputError("train.notch", given, "must be a list of tables", "Write [[train.notch]] with two brackets")
+        notches = tuple(_notch(i, n) for i, n in enumerate(given, start=1))
         spacing = t.get("car_spacing")
         if isinstance(t.get("cars"), list):
             if "vehicle" in t:

@@ -27,6 +27,7 @@ __all__ = [
     "keys",
     "number",
     "numbers",
+    "plain",
     "quantity",
     "read_parameters",
     "read_toml",
@@ -128,17 +129,17 @@ def number(
         bounds.append(f"at most {most:g}")
     unit = f" {unit}" if unit else ""
     allowed = "must be a finite number" + (" " + " and ".join(bounds) + unit if bounds else unit)
-    if isinstance(value, (bool, str)) or value is None:
+    # Only scalars: text, booleans and lists of one would pass float() too. Beyond 1e30 products overflow.
+    if not isinstance(value, (int, float, np.integer, np.floating)) or isinstance(value, bool):
         raise InputError(field, value, allowed, remedy)
     try:
         result = float(value)
-    except (TypeError, ValueError, OverflowError):
+    except OverflowError:
         raise InputError(field, value, allowed, remedy) from None
+    if not math.isfinite(result) or abs(result) > 1e30 or 0.0 < abs(result) < 1e-30:
+        raise InputError(field, value, allowed + ", in size between 1e-30 and 1e30 unless zero", remedy)
     outside = (
-        not math.isfinite(result)
-        or (above is not None and result <= above)
-        or (least is not None and result < least)
-        or (most is not None and result > most)
+        (above is not None and result <= above) or (least is not None and result < least) or (most is not None and result > most)
     )
     if outside:
         raise InputError(field, value, allowed, remedy)
@@ -192,6 +193,20 @@ def table(field: str, value: Any) -> dict[str, Any]:
     return dict(value)
 
 
+def plain(field: str, value: Any, depth: int = 0) -> Any:
+    """Return a copy of a value made of tables, lists, texts, numbers and booleans only, NumPy's turned into Python's."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = value.tolist()
+    if isinstance(value, (str, bool, int, float)):
+        return value
+    if depth < 20:
+        if isinstance(value, Mapping):
+            return {k: plain(f"{field}.{k}" if field else str(k), v, depth + 1) for k, v in table(field, value).items()}
+        if isinstance(value, (list, tuple)):
+            return [plain(f"{field}[{i}]", v, depth + 1) for i, v in enumerate(value)]
+    raise InputError(field, value, "must be a number, a text, true or false, or a list or table of them")
+
+
 def keys(field: str, given: Mapping[str, Any], allowed: Iterable[str], required: Iterable[str] = ()) -> None:
     """Refuse unknown keys (with the nearest known one) and missing required keys of a table."""
     allowed = [*allowed, *(k for k in required if k not in allowed)]
@@ -229,9 +244,9 @@ def data_root() -> Path:
     return packaged if packaged.is_dir() else Path(__file__).parents[2] / "data"
 
 
-def data_names(kind: str) -> list[str]:
-    """Return the names of the shipped data files of a kind (``vehicles``, ``decks``, ``cases``)."""
-    return sorted({p.stem for p in (data_root() / kind).glob("*.*") if p.suffix in (".csv", ".toml")})
+def data_names(kind: str, *suffixes: str) -> list[str]:
+    """Return the names of the shipped data files of a kind (``vehicles``, ``decks``, ``cases``), of any suffix if none given."""
+    return sorted({p.stem for p in (data_root() / kind).glob("*.*") if p.suffix in (suffixes or (".csv", ".toml"))})
 
 
 def data_file(kind: str, name: str | Path) -> Path:
@@ -256,10 +271,10 @@ def data_file(kind: str, name: str | Path) -> Path:
     if path.suffix in (".csv", ".toml") or len(path.parts) > 1:
         if path.suffix not in (".csv", ".toml"):
             raise InputError(field, str(name), "file must end in .csv or .toml")
-        if not path.is_file():
+        if not _is_file(path):
             raise InputError(field, str(name), "no such file", f"Looked in {path.parent.resolve().name or 'the root'}")
         return path
-    found = [p for s in (".csv", ".toml") if (p := data_root() / kind / f"{name}{s}").is_file()]
+    found = [data_root() / kind / f"{name}{s}" for s in (".csv", ".toml") if name in data_names(kind, s)]
     if len(found) > 1:
         raise InputError(field, str(name), "exists as both CSV and TOML", "Remove one, or give the file's path")
     if not found:
@@ -267,11 +282,18 @@ def data_file(kind: str, name: str | Path) -> Path:
     return found[0]
 
 
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # a name too long for the file system
+        return False
+
+
 def read_toml(path: Path) -> dict[str, Any]:
     """Read a TOML file; refuse what is not TOML, naming the file."""
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (ValueError, RecursionError, OSError) as error:
         raise InputError(path.name, None, f"is not a valid TOML file ({error})") from None
 
 
@@ -299,7 +321,7 @@ def read_parameters(path: Path, expected: Mapping[str, str]) -> dict[str, float]
     where = path.name
     try:
         rows = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
-    except (UnicodeDecodeError, csv.Error) as error:
+    except (UnicodeDecodeError, csv.Error, OSError) as error:
         raise InputError(where, None, f"is not a readable CSV file ({error})", "Save it as UTF-8 text") from None
     rows = [r for r in rows if r and any(cell.strip() for cell in r)]
     header = [h.strip() for h in rows[0]] if rows else []

@@ -17,6 +17,8 @@ __all__ = ["Settings", "check", "default_time_step"]
 LEAD_IN_SECONDS = 7.5
 SAMPLES_PER_LENGTH = 10
 """Fewest samples per wavelength or notch."""
+LARGEST = 3e8
+"""Most numbers held at a time: 2.4 GB."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,9 @@ def check(
     InputError
         Naming the argument as a case names it, for instance ``run.speed``.
     """
+    for name, value, kinds in [("train", train, (Train, AxleTrain)), ("deck", deck, Deck), ("track", track, Track)]:
+        if not isinstance(value, kinds):
+            raise InputError(name, value, f"must be a {name.title()}", f"Make one with railbridge.{name.title()}")
     speed = inputs.number("run.speed", speed, above=0.0, most=200.0, unit="m/s", remedy="Give it in m/s: 72 km/h is 20")
     inputs.choice("run.loads", loads, LOADS)
     if interaction == "direct":
@@ -77,13 +82,15 @@ def check(
         relaxation = inputs.number("run.relaxation", relaxation, above=0.0, most=1.0, remedy="Or use 'aitken'")
     elif relaxation is not None:
         inputs.choice("run.relaxation", relaxation, ("aitken",))
+    lead_in = inputs.number("run.lead_in", lead_in, least=0.0, most=1e5, unit="m", remedy="0 means level track before the deck")
+    tail = inputs.number("run.tail", tail, least=0.0, most=1e4, unit="s")
+    step = _time_step(train, deck, track, speed, time_step)
+    _refuse_size(train, deck, speed, step, lead_in, tail)
     return Settings(
         speed=speed,
-        time_step=_time_step(train, deck, track, speed, time_step),
-        lead_in=inputs.number(
-            "run.lead_in", lead_in, least=0.0, most=1e5, unit="m", remedy="0 means level track before the deck"
-        ),
-        tail=inputs.number("run.tail", tail, least=0.0, most=1e4, unit="s"),
+        time_step=step,
+        lead_in=lead_in,
+        tail=tail,
         track_offset=_track_offset(train, deck, track_offset),
         loads=loads,
         interaction=interaction,
@@ -103,6 +110,15 @@ def _track_offset(train: Train | AxleTrain, deck: Deck, given: float | str) -> f
             off = f"wheel {w.number} of car {w.car} at y = {offset + w.y:g} m is off the deck, half width {deck.width / 2:g} m"
             raise InputError("train.track", given, off, "Move the track towards the axis, or correct the deck's width")
     return offset
+
+
+def _refuse_size(train: Train | AxleTrain, deck: Deck, speed: float, step: float, lead_in: float, tail: float) -> None:
+    """Refuse what would not fit into memory: a slip in the speed or the step must not stop the machine."""
+    samples = (lead_in + train.length + deck.length) / speed / step + tail / step
+    values = samples * (4 * len(train.wheels) + 4 * len(deck.frequencies_hz))
+    if values > LARGEST:
+        few = f"makes {samples:.3g} samples of {len(train.wheels)} wheels and {len(deck.frequencies_hz)} modes, too many to hold"
+        raise InputError("run.time_step", step, few, "Use a larger step or speed, a shorter lead-in or tail, or fewer cars")
 
 
 def _time_step(train: Train | AxleTrain, deck: Deck, track: Track, speed: float, given: float | None) -> float:
