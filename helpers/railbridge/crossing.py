@@ -9,6 +9,7 @@ import numpy as np
 
 from . import inputs
 from .deck import REACTION_QUANTITIES, SECTION_QUANTITIES, Deck, History, Line, Recovery
+from .direct import direct
 from .inputs import InputError
 from .interaction import Coupling, DeckState, Delta, iterate, prepare
 from .settings import Settings, check
@@ -67,7 +68,7 @@ class Crossing:
     changes : tuple of float
         For each iteration, the largest over wheels and directions of rms(F_i - F_(i-1)) / rms(F_i - static).
     converged : bool or None
-        None for interaction ``rigid``.
+        None for interaction ``rigid`` and ``direct``.
     shown : int
         Which iteration the methods speak of.
     coupling : Coupling
@@ -116,9 +117,14 @@ class Crossing:
             delta = self.passes[self.shown][car]
             total[:, window] += delta
             if self.shown > 0 and window.stop < total.shape[1] and len(self.train.groups()) > 0:
-                total[:, window.stop :] += self.coupling.decay(self.at(self.shown - 1).state, car)
+                total[:, window.stop :] += self.coupling.decay(self._felt, car)
             rows.append(total.reshape(-1, 2, total.shape[1]))
         return np.concatenate(rows)
+
+    @property
+    def _felt(self) -> DeckState:
+        """The deck's motion that the forces shown answer to: that of the pass before, or, solved directly, their own."""
+        return self.state if self.settings.interaction == "direct" else self.at(self.shown - 1).state
 
     def wheel_force(self, car: int = 1, wheel: int = 1) -> History:
         """Return lateral and vertical force of one wheel on the deck, N, static part included; both numbered from 1."""
@@ -290,8 +296,9 @@ def cross(
         m/s.
     loads : {"wheels", "bogies", "condensed"}
         How the wheel forces act on the deck: as they are, as one resultant per bogie, or one per car (the paper).
-    interaction : {"iterate", "rigid"}
-        The fixed point, or the deck under rigid-deck forces (iteration 0).
+    interaction : {"iterate", "rigid", "direct"}
+        The fixed point, the deck under rigid-deck forces (iteration 0), or train and deck solved together at every step
+        (wheel loads only; the limit of the fixed point, without iterating, more slowly).
     track_offset : float or str
         Track centre line, m left of the deck axis, or a track's name in the deck file.
     time_step : float, optional
@@ -339,6 +346,8 @@ def cross(
     coupling = prepare(train, deck, track, settings)
     if interaction == "rigid":
         return Crossing(train, deck, track, settings, (coupling.at_rest(),), (), None, 0, coupling)
+    if interaction == "direct":
+        return Crossing(train, deck, track, settings, (coupling.at_rest(), direct(coupling)), (), None, 1, coupling)
     found = iterate(coupling)
     run = Crossing(train, deck, track, settings, found.passes, found.changes, found.converged, len(found.changes), coupling)
     if iterations is None and not found.converged:

@@ -86,16 +86,25 @@ class LinearSystem:
         right = (self.c @ vectors)[:, keep] * weight
         return SampledResponse(h, ramp_coefficients(poles[keep], h), left, right, inverse[keep], None)
 
-    def _block(self, h: float) -> SampledResponse:
-        """Use the matrix exponential of the whole system where its eigenvectors nearly coincide."""
+    def step(self, time_step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return E, B0 and B1 of the exact step ``x[k+1] = E x[k] + B0 u[k] + B1 u[k+1]`` in the system's own coordinates.
+
+        The matrix exponential of the system with its input and the input's rate as further states gives all three, whether
+        or not A has distinct eigenvectors.
+        """
         n, p = self.b.shape
         augmented = np.zeros((n + 2 * p, n + 2 * p))
-        augmented[:n, :n] = self.a * h
-        augmented[:n, n : n + p] = self.b * h
+        augmented[:n, :n] = self.a * time_step
+        augmented[:n, n : n + p] = self.b * time_step
         augmented[n : n + p, n + p :] = np.eye(p)
-        step = expm(augmented)
-        b1 = step[:n, n + p :]
-        matrices = step[:n, :n], step[:n, n : n + p] - b1, b1
+        whole = expm(augmented)
+        b1 = whole[:n, n + p :]
+        return whole[:n, :n], whole[:n, n : n + p] - b1, b1
+
+    def _block(self, h: float) -> SampledResponse:
+        """Use the step of the whole system where its eigenvectors nearly coincide."""
+        matrices = self.step(h)
+        n, p = self.b.shape
         return SampledResponse(h, matrices, np.eye(p), self.c, np.eye(n), matrices)
 
 

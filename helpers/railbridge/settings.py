@@ -71,11 +71,13 @@ def check(
             raise InputError(name, value, f"must be a {name.title()}", f"Make one with railbridge.{name.title()}")
     speed = inputs.number("run.speed", speed, above=0.0, most=200.0, unit="m/s", remedy="Give it in m/s: 72 km/h is 20")
     inputs.choice("run.loads", loads, LOADS)
-    if interaction == "direct":
-        raise InputError("run.interaction", "direct", "the direct solution is not available yet", "Use 'iterate' or 'rigid'")
-    inputs.choice("run.interaction", interaction, ("iterate", "rigid"))
+    inputs.choice("run.interaction", interaction, ("iterate", "rigid", "direct"))
     inputs.choice("run.excitation", excitation, ("wheels", "car"))
     inputs.choice("run.feedback", feedback, ("all", "vertical"))
+    for name, value, needed in [("loads", loads, "wheels"), ("feedback", feedback, "all")]:
+        if interaction == "direct" and value != needed:
+            allowed = f"the direct solution couples true wheels and the whole motion, so it must be '{needed}'"
+            raise InputError(f"run.{name}", value, allowed, "Or use run.interaction = 'iterate'")
     train.condensation(0, loads)
     lead_in = LEAD_IN_SECONDS * speed if lead_in is None else lead_in
     if relaxation is not None and not isinstance(relaxation, str):
