@@ -1,0 +1,160 @@
+"""The exact sampled response against closed forms, series in exact arithmetic and an independent integrator."""
+
+from fractions import Fraction
+from math import factorial
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from railbridge.inputs import InputError
+from railbridge.response import LinearSystem, oscillator, ramp_coefficients, second_order_system
+
+
+def phi(order, x):
+    """phi_order(x) = sum x^j / (j + order)!, summed exactly for a rational number x."""
+    x = Fraction(x)
+    return float(sum(x**j / factorial(j + order) for j in range(80)))
+
+
+@pytest.mark.parametrize("x", [0.0, -1e-300, -1e-12, -1e-8, 1e-5, -1e-3, -0.05, 0.29, -0.2999, -0.3001, -0.7, -3.0, -9.0, 2.0])
+def test_ramp_coefficients_equal_the_exact_series(x):
+    h = 0.5
+    a, b0, b1 = (c[0] for c in ramp_coefficients(np.array([x / h]), h))
+    assert a == pytest.approx(np.exp(x), rel=1e-14)
+    assert b1 == pytest.approx(h * phi(2, x), rel=2e-14)
+    assert b0 == pytest.approx(h * (phi(1, x) - phi(2, x)), rel=5e-14)
+
+
+def test_ramp_coefficients_of_stiff_poles():
+    # exp(x) vanishes: phi1 = -1/x, phi2 = -(1 + 1/x)/x.
+    x = np.array([-1e3, -1e6, -1e12])
+    a, b0, b1 = ramp_coefficients(x, 1.0)
+    assert np.all(a == 0.0)
+    assert b1 == pytest.approx(-(1 + 1 / x) / x, rel=1e-15)
+    assert b0 == pytest.approx(1 / x**2, rel=1e-3)
+
+
+@given(angle=st.floats(0.0, np.pi), size=st.floats(-6.0, 1.0))
+def test_complex_poles_solve_the_scalar_equation(angle, size):
+    # One step of z' = s z + w with w from w0 to w1, by Gauss quadrature of the variation of constants.
+    s, h, w0, w1 = -np.exp(1j * angle / 2) * 10.0**size, 1.0, 0.7, -1.3
+    a, b0, b1 = (c[0] for c in ramp_coefficients(np.array([s]), h))
+    points, weights = np.polynomial.legendre.leggauss(60)
+    tau = (points + 1) / 2
+    exact = np.sum(weights / 2 * np.exp(s * (h - tau)) * (w0 + (w1 - w0) * tau))
+    assert b0 * w0 + b1 * w1 == pytest.approx(exact, rel=1e-9, abs=1e-13)
+
+
+def closed_form(omega, ratio, t, q0=0.0, v0=0.0):
+    """Free vibration and unit-ramp response of an oscillator: q(t), q'(t), for any damping ratio."""
+    s = omega * (-ratio + np.array([1, -1]) * np.emath.sqrt(ratio**2 - 1.0))
+    if ratio == 1.0:
+        e = np.exp(-omega * t)
+        free = e * (q0 + (v0 + omega * q0) * t)
+        free_v = e * (v0 - omega * (v0 + omega * q0) * t)
+        c0, c1 = 2 / omega**3, 1 / omega**2
+        ramp = t / omega**2 - 2 / omega**3 + e * (c0 + c1 * t)
+        ramp_v = 1 / omega**2 + e * (c1 - omega * (c0 + c1 * t))
+        return free + ramp, free_v + ramp_v
+    # Particular solution t / w^2 - 2 zeta / w^3; the rest is a sum of two exponentials.
+    shift = 2 * ratio / omega**3
+    a = np.linalg.solve(np.vstack([np.ones(2), s]), np.array([q0 + shift, v0 - 1 / omega**2], dtype=complex))
+    e = np.exp(np.outer(t, s))
+    return (e @ a).real + t / omega**2 - shift, (e @ (a * s)).real + 1 / omega**2
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.02, 0.9, 0.99999, 1 - 1e-9, 1.0, 1 + 1e-9, 1.00001, 1.5, 40.0])
+@pytest.mark.parametrize("step", [1e-4, 0.01, 0.3])
+def test_oscillator_under_a_ramp(ratio, step):
+    omega = 12.0
+    t = step * np.arange(200)
+    q, v = oscillator(omega, ratio).sampled(step)(t[None], np.array([0.03, -0.2]))
+    exact_q, exact_v = closed_form(omega, ratio if abs(ratio - 1) > 1e-8 else 1.0, t, 0.03, -0.2)
+    # Near critical damping the reference itself treats the pole as double, an error of the order of 1e-9.
+    rel = 1e-8 if 0 < abs(ratio - 1) < 1e-4 else 1e-10
+    assert q == pytest.approx(exact_q, rel=rel, abs=rel * 0.03)
+    assert v == pytest.approx(exact_v, rel=rel, abs=rel * 0.4)
+
+
+def test_critical_damping_uses_the_block_and_never_garbage():
+    assert oscillator(12.0, 1.0).sampled(0.01).block is not None
+    assert oscillator(12.0, 0.9).sampled(0.01).block is None
+    triple = LinearSystem(-np.eye(3) * 5 + np.diag([1.0, 1.0], 1), np.array([[0.0], [0.0], [1.0]]), np.eye(3))
+    t = np.linspace(0, 2, 201)
+    y = triple.sampled(t[1])(np.zeros((1, 201)), np.array([0.0, 0.0, 1.0]))
+    assert y == pytest.approx(np.exp(-5 * t) * np.array([t**2 / 2, t, np.ones_like(t)]), rel=1e-11)
+
+
+@pytest.mark.parametrize("ratio", [0.03, 1.0, 3.0])
+def test_sine_is_met_to_second_order(ratio):
+    omega, drive = 12.0, 20.0
+
+    def error(step):
+        t = step * np.arange(round(2.0 / step) + 1)
+        q = oscillator(omega, ratio).sampled(step)(np.cos(drive * t)[None])[0]  # nonzero at t = 0
+        ode = solve_ivp(
+            lambda t, y: [y[1], np.cos(drive * t) - 2 * ratio * omega * y[1] - omega**2 * y[0]],
+            (0, 2.0), [0.0, 0.0], method="DOP853", rtol=1e-12, atol=1e-15, t_eval=t,
+        )  # fmt: skip
+        return np.abs(q - ode.y[0]).max()
+
+    coarse, fine = error(0.01), error(0.005)
+    assert 3.8 < coarse / fine < 4.2
+    assert fine < 1e-5
+
+
+def test_the_first_sample_of_input_does_not_move_the_state():
+    y = oscillator(5.0, 0.1).sampled(0.01)(np.ones((1, 3)))
+    assert np.all(y[:, 0] == 0.0)
+    for ratio in (0.1, 1.0):
+        start = oscillator(5.0, ratio).sampled(0.01)(np.ones((1, 3)), np.array([0.3, 0.7]))
+        assert start[:, 0] == pytest.approx([0.3, 0.7], rel=1e-12)
+
+
+@given(seed=st.integers(0, 10**6), n=st.integers(1, 4), runs=st.integers(1, 3))
+@settings(max_examples=25)
+def test_a_chain_of_masses_against_an_independent_integrator(seed, n, runs):
+    rng = np.random.default_rng(seed)
+    mass = np.diag(rng.uniform(0.5, 3.0, n))
+    root = rng.normal(size=(n, n))
+    stiffness = root @ root.T + 5 * np.eye(n)
+    damping = 0.05 * stiffness + np.diag(rng.uniform(0, 1, n))
+    force, output = rng.normal(size=(n, 2)), rng.normal(size=(3, 2 * n))
+    system = second_order_system(mass, damping, stiffness, force, output)
+    t = np.linspace(0, 3.0, 31)
+    u = rng.normal(size=(2, runs, 31))
+    x0 = rng.normal(size=2 * n)
+    ours = system.sampled(t[1])(u, x0)
+    assert ours.shape == (3, runs, 31)
+    for r in range(runs):
+        assert system.sampled(t[1])(u[:, r], x0) == pytest.approx(ours[:, r], rel=1e-10, abs=1e-12)
+
+    def rate(time, x):
+        here = [np.interp(time, t, row) for row in u[:, 0]]
+        acceleration = np.linalg.solve(mass, force @ here - damping @ x[n:] - stiffness @ x[:n])
+        return np.concatenate([x[n:], acceleration])
+
+    x = x0
+    for k in range(30):  # piece by piece: the input has a corner at every sample
+        x = solve_ivp(rate, (t[k], t[k + 1]), x, method="DOP853", rtol=1e-10, atol=1e-12).y[:, -1]
+        assert ours[:, 0, k + 1] == pytest.approx(output @ x, rel=1e-7, abs=1e-8)
+
+
+@given(ratio=st.floats(0.0, 5.0), omega=st.floats(0.1, 1e4), step=st.floats(1e-5, 0.1), seed=st.integers(0, 99))
+@settings(max_examples=60)
+def test_halving_the_step_of_a_piecewise_linear_input_changes_nothing(ratio, omega, step, seed):
+    u = np.random.default_rng(seed).normal(size=40)
+    fine = np.interp(np.arange(79) / 2, np.arange(40), u)
+    system = oscillator(omega, ratio)
+    once, twice = system.sampled(step)(u[None]), system.sampled(step / 2)(fine[None])[:, ::2]
+    scale = np.abs(once).max(axis=1, keepdims=True)
+    assert np.all(np.abs(once - twice) <= 1e-8 * scale)
+    assert np.all(np.isfinite(once))
+
+
+def test_time_step_must_be_positive():
+    with pytest.raises(InputError, match="time_step"):
+        oscillator(1.0, 0.1).sampled(0.0)

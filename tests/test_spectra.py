@@ -1,0 +1,37 @@
+"""Amplitude spectrum and Eq. 3 on signals whose spectrum is known."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import railbridge as rb
+
+
+def test_a_whole_number_of_periods_is_one_line_of_its_amplitude():
+    t = np.arange(3000) * 1e-3
+    spectrum = rb.amplitude_spectrum(7.0 + 5.0 * np.sin(2 * np.pi * 4.0 * t) + 2.0 * np.cos(2 * np.pi * 9.0 * t), 1e-3)
+    assert len(spectrum.amplitude) == 60
+    assert spectrum.frequency[:3] == pytest.approx([1 / 3, 2 / 3, 1.0])
+    assert spectrum.peak == pytest.approx((4.0, 5.0))
+    assert spectrum.amplitude[26] == pytest.approx(2.0)
+    rest = np.delete(spectrum.amplitude, [11, 26])
+    assert np.all(rest < 1e-10)
+    assert list(spectrum.to_frame().columns) == ["frequency (Hz)", "amplitude (N)"]
+
+
+def test_equation_3_by_hand():
+    def spectrum(*lines):
+        return rb.Spectrum(np.arange(1, len(lines) + 1) / 3, np.array(lines))
+
+    assert rb.deviation_percent(spectrum(3.0, 4.0), spectrum(0.0, 4.0)) == pytest.approx(25.0)
+    assert rb.deviation_percent(spectrum(0.0, 4.0), spectrum(3.0, 4.0)) == pytest.approx(-20.0)
+    assert np.isnan(rb.deviation_percent(spectrum(1.0), spectrum(0.0)))
+
+
+@given(scale=st.floats(0.1, 10.0), shift=st.floats(-1e6, 1e6), seed=st.integers(0, 1000))
+def test_scaling_and_shifting_a_record(scale, shift, seed):
+    signal = np.random.default_rng(seed).normal(size=500)
+    base = rb.amplitude_spectrum(signal, 0.01)
+    other = rb.amplitude_spectrum(scale * signal + shift, 0.01)
+    assert rb.deviation_percent(other, base) == pytest.approx(100 * (scale - 1), abs=1e-4)
