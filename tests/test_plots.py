@@ -1,0 +1,170 @@
+"""Every figure is drawn, says its units, changes no settings, and hides nothing under its legend."""
+
+import inspect
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import railbridge as rb
+from railbridge import drawing, plots
+
+
+@pytest.fixture(scope="module")
+def case():
+    return rb.case("paper").replace({"run.time_step": 4e-3, "run.iterations": 4, "train.cars": 2})
+
+
+@pytest.fixture(scope="module")
+def run(case):
+    return case.run()
+
+
+@pytest.fixture(autouse=True)
+def close():
+    yield
+    plt.close("all")
+
+
+@pytest.fixture(scope="module")
+def figures(case, run):
+    """One call of every figure, by name."""
+    car, deck, train, track = run.train.vehicles[0], run.deck, run.train, run.track
+    notch = rb.Notch(((1, 1),), 2.7, 1.0, 1e-3, 0.05)
+    return {
+        "acceleration": lambda: plots.acceleration(run, 18.0),
+        "car_forces": lambda: plots.car_forces(run, steady={"force_z": 75.8e3}),
+        "convergence": lambda: plots.convergence(run),
+        "damping": lambda: plots.damping(1.0364, 4.87e-4, {"forcing": 1.389}),
+        "deck_mode": lambda: plots.deck_mode(deck, 3),
+        "deck_modes": lambda: plots.deck_modes(deck),
+        "deviations": lambda: plots.deviations({"condensed": run}),
+        "displacement": lambda: plots.displacement(run, 18.0, self_weight=True),
+        "frequencies": lambda: plots.frequencies(car, {"forcing": 1.389}),
+        "influence_line": lambda: plots.influence_line(deck, "moment_vertical", 18.0),
+        "irregularity": lambda: plots.irregularity(track, -170.0, 50.0, lead_in=150.0, deck=deck),
+        "iterations": lambda: plots.iterations(run, "displacement_z"),
+        "load_modes": lambda: plots.load_modes({"condensed": run}, 18.0, "moment_vertical"),
+        "notch": lambda: plots.notch(notch, 0.0, 10.0),
+        "reactions": lambda: plots.reactions(run),
+        "section_force": lambda: plots.section_force(run, 18.0, "torsion"),
+        "slope": lambda: plots.slope(track, deck=36.0),
+        "spectra": lambda: plots.spectra(run),
+        "spectrum": lambda: plots.spectrum(run, mark={"forcing": 1.389}),
+        "train_on_deck": lambda: plots.train_on_deck(train, deck),
+        "vehicle": lambda: plots.vehicle(car),
+        "vehicle_mode": lambda: plots.vehicle_mode(car, 4),
+        "velocity": lambda: plots.velocity(run, 18.0),
+        "wheel_force": lambda: plots.wheel_force(run),
+        "wheel_forces": lambda: plots.wheel_forces(run, 2),
+        "wheel_paths": lambda: plots.wheel_paths(train, track, 20.0),
+    }
+
+
+@pytest.mark.parametrize("name", plots.__all__)
+def test_every_figure_is_drawn_with_units_and_without_side_effects(name, figures):
+    before = dict(mpl.rcParams)
+    axes = np.ravel(np.asarray(figures[name](), dtype=object))
+    figure = axes[0].figure
+    figure.canvas.draw()
+    assert dict(mpl.rcParams) == before
+    assert all(isinstance(ax, mpl.axes.Axes) for ax in axes)
+    labels = " ".join(ax.get_xlabel() + ax.get_ylabel() for ax in axes)
+    assert any(f"({unit})" in labels for unit in ("m", "s", "Hz", "mm", "kN", "-", "%")), labels
+    assert figure.get_figwidth() == drawing.WIDTH
+
+
+@pytest.mark.parametrize("name", plots.__all__)
+def test_legends_stand_above_the_data(name, figures):
+    axes = np.ravel(np.asarray(figures[name](), dtype=object))
+    axes[0].figure.canvas.draw()
+    for ax in axes:
+        if ax.get_legend() is not None:
+            box, frame = ax.get_legend().get_window_extent(), ax.get_window_extent()
+            assert box.y0 >= frame.y1 - 1.0 and box.x0 >= 0.0
+
+
+def test_given_axes_are_used_and_returned(run):
+    figure, (upper, lower) = plt.subplots(2, 1)
+    assert plots.displacement(run, 18.0, ax=upper) is upper
+    assert list(plots.iterations(run, ax=(upper, lower))) == [upper, lower]
+    assert figure.axes == [upper, lower]
+    assert plt.get_fignums() == [figure.number]
+
+
+@pytest.mark.parametrize("vehicle", ["xia2000", "xia2000_planar", "sprung_mass"])
+def test_any_vehicle_can_be_sketched_and_all_its_modes(vehicle):
+    v = rb.vehicle(vehicle)
+    assert len(plots.vehicle(v)) == 3
+    for mode in range(1, len(v.labels) + 1):
+        axes = plots.vehicle_mode(v, mode)
+        assert axes[0].get_title(loc="left").startswith(f"mode {mode}: ")
+        plt.close("all")
+
+
+def test_mode_titles_say_frequency_and_what_moves():
+    car = rb.vehicle("xia2000")
+    assert plots.vehicle_mode(car, 4)[0].get_title(loc="left").startswith("mode 4: 1.334 Hz, car z\nCar bounces (100 %)")
+    assert "Same frequency as mode 9" in plots.vehicle_mode(car, 8)[0].get_title(loc="left").replace("\n", " ")
+
+
+def test_a_mode_moves_its_body_as_its_shape_says():
+    axes = plots.vehicle_mode(rb.vehicle("sprung_mass"), 1, scale=0.2)
+    rest, moved = (p.get_xy() for p in axes[0].patches if p.get_xy().shape == (5, 2))
+    assert np.allclose(moved - rest, [0.0, 0.2])
+
+
+def test_displays_are_in_kn_and_mm(run):
+    def data(ax, name):
+        return next(line for line in ax.lines if (line.get_gid() or "").strip() == name).get_ydata()
+
+    mm = data(plots.displacement(run, 18.0), "displacement_z")
+    assert np.allclose(mm, 1e3 * run.displacement(18.0)["displacement_z"])
+    kn = data(plots.wheel_force(run, 2, 3), "force_z")
+    assert np.allclose(kn, 1e-3 * run.wheel_force(2, 3)["force_z"])
+    assert np.all(kn < 0)
+
+
+def test_spectra_titles_give_equation_3(run):
+    titles = [ax.get_title(loc="left") for ax in plots.spectra(run)]
+    assert titles[0] == "i = 0, rigid deck"
+    assert titles[2] == f"i = 2, Eq. 3: {run.deviations.from_rigid[1]:+.3f} %"
+
+
+def test_looks_are_unique():
+    looks = [(v.colour, v.line) for k, v in drawing.LOOKS.items() if k not in ("slope_vertical", "slope_lateral", "damping")]
+    assert len(set(looks)) == len(looks)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda run: plots.vehicle_mode(run.train.vehicles[0], 16), "mode = 16"),
+        (lambda run: plots.deck_mode(run.deck, 0), "mode = 0"),
+        (lambda run: plots.wheel_forces(run, 3), "car = 3"),
+        (lambda run: plots.section_force(run, 18.0, "moment_verticle"), "moment_verticle"),
+        (lambda run: plots.influence_line(run.deck, "moment_vertcal", 18.0), "moment_vertical"),
+        (lambda run: plots.iterations(run, which=(9,)), "which"),
+        (lambda run: plots.load_modes({"a": run}, 18.0, "displacment_z"), "displacement_z"),
+        (lambda run: plots.wheel_paths(run.train, run.track, 20.0, [(9, 1)]), "wheels"),
+    ],
+)
+def test_wrong_questions_are_refused(run, call, message):
+    with pytest.raises(rb.InputError, match=message):
+        call(run)
+
+
+def test_a_live_figure_moves_its_curves(run):
+    ax = plots.displacement(run, 18.0)
+    drawing.live(ax.figure)
+    count = len(ax.get_children())
+    before = ax.lines[0].get_ydata().copy()
+    plots.displacement(run.at(0), 18.0, ax=ax)
+    assert len(ax.get_children()) == count
+    assert not np.array_equal(before, ax.lines[0].get_ydata())
+
+
+def test_public_functions_take_axes():
+    for name in plots.__all__:
+        assert {"ax", "axes"} & set(inspect.signature(getattr(plots, name)).parameters), name
