@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import csv
 import difflib
-import math
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -129,17 +128,20 @@ def number(
         bounds.append(f"at most {most:g}")
     unit = f" {unit}" if unit else ""
     allowed = "must be a finite number" + (" " + " and ".join(bounds) + unit if bounds else unit)
-    # Only scalars: text, booleans and lists of one would pass float() too. Beyond 1e30 products overflow.
+    # Only scalars: text, booleans and lists of one would pass float() too.
     if not isinstance(value, (int, float, np.integer, np.floating)) or isinstance(value, bool):
         raise InputError(field, value, allowed, remedy)
     try:
         result = float(value)
     except OverflowError:
         raise InputError(field, value, allowed, remedy) from None
-    if not math.isfinite(result) or abs(result) > 1e30 or 0.0 < abs(result) < 1e-30:
-        raise InputError(field, value, allowed + ", in size between 1e-30 and 1e30 unless zero", remedy)
+    if abs(result) < 1e-30:  # products of such numbers underflow, and those of numbers beyond 1e30 overflow
+        result = 0.0
     outside = (
-        (above is not None and result <= above) or (least is not None and result < least) or (most is not None and result > most)
+        not abs(result) <= 1e30
+        or (above is not None and result <= above)
+        or (least is not None and result < least)
+        or (most is not None and result > most)
     )
     if outside:
         raise InputError(field, value, allowed, remedy)
