@@ -2,6 +2,7 @@ r"""One train crosses one deck at one speed: rigid, or iterated to the fixed poi
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -12,10 +13,10 @@ from .deck import REACTION_QUANTITIES, SECTION_QUANTITIES, Deck, History, Line, 
 from .direct import direct
 from .inputs import InputError
 from .interaction import Coupling, DeckState, Delta, iterate, prepare
-from .settings import Settings, check
+from .settings import LEAD_IN_SECONDS, Settings, check
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .track import Track
-from .train import CONDENSED, AxleTrain, Train
+from .train import CONDENSED, AxleTrain, Train, steady_forces
 
 __all__ = ["Crossing", "Deviations", "NotConvergedError", "cross"]
 
@@ -133,6 +134,22 @@ class Crossing:
                 values = dict(zip(("force_y", "force_z"), self.wheel_forces[i], strict=True))
                 return History(self.time, values, {"force_y": "N", "force_z": "N"}, f"car {car}, wheel {wheel}")
         raise InputError("wheel", (car, wheel), "no such (car, wheel) in this train", "Both are counted from 1")
+
+    @cached_property
+    def body_accelerations(self) -> np.ndarray:
+        """Accelerations of every car body, m/s2, shape (cars, 3, 2, n): front, middle, rear; lateral, vertical.
+
+        At the height of its centre of mass, above its foremost springs, at the centre, above its rearmost springs, over the
+        whole record. The car body is the heaviest body. Shape (0, 3, 2, n) for bare axle loads.
+        """
+        s = self.settings
+        if not self.train.groups():
+            return np.zeros((0, 3, 2, len(self.time)))
+        rigid = self.train.rigid_accelerations(self.track, s.speed, s.time_step, len(self.time), s.lead_in, s.excitation)
+        if self.shown > 0:
+            added = self.coupling.body_accelerations(self._felt)
+            rigid = [r + a for r, a in zip(rigid, added, strict=True)]
+        return np.array(rigid).reshape(len(rigid), 3, 2, -1)
 
     def car_forces(self, car: int = 1, at: str = "track", static: bool = True) -> History:
         """Return one car's wheel forces condensed to five components over the whole record (Figures 9 to 11).
@@ -304,7 +321,8 @@ def cross(
     time_step : float, optional
         s; see `default_time_step`.
     lead_in : float, optional
-        Run-up on the irregular track, m; default 7.5 s of travel. Zero: level track before the deck, the train at rest.
+        Run-up on the irregular track, m; default 7.5 s of travel. Zero: level track before the deck, the train at rest. On
+        harmonic track a run-up that leaves more than 1 % of the steady forces unsettled is warned about.
     tail : float
         s after the last axle has left.
     tolerance : float
@@ -344,6 +362,8 @@ def cross(
         excitation=excitation, feedback=feedback,
     )  # fmt: skip
     coupling = prepare(train, deck, track, settings)
+    if lead_in is not None:
+        _warn_of_transient(coupling, track)
     if interaction == "rigid":
         return Crossing(train, deck, track, settings, (coupling.at_rest(),), (), None, 0, coupling)
     if interaction == "direct":
@@ -353,3 +373,26 @@ def cross(
     if iterations is None and not found.converged:
         raise NotConvergedError(run)
     return run
+
+
+def _warn_of_transient(coupling: Coupling, track: Track) -> None:
+    """Compare the first car's rigid-deck forces, while it crosses, with the closed form they should have settled to."""
+    s, train = coupling.settings, coupling.train
+    if not 0.0 < s.lead_in < LEAD_IN_SECONDS * s.speed or isinstance(train, AxleTrain) or train.notches:
+        return
+    car = train.vehicles[0]
+    try:
+        steady = steady_forces(car, track, s.speed, s.excitation)
+    except InputError:  # level, or not harmonic: nothing to compare with
+        return
+    wavelength = track.shortest  # the only one
+    window = coupling.windows[0]
+    centre = s.speed * coupling.time[window] - train.centres[0]
+    settled = (steady[:, None] * np.exp(2j * np.pi * centre / wavelength)).imag
+    left = np.linalg.norm(coupling.rigid[0][:, window] - settled) / np.linalg.norm(settled)
+    if left > 0.01:
+        warnings.warn(
+            f"run.lead_in = {s.lead_in:g} m: {left:.1%} of the steady wheel forces is still transient while the first car "
+            f"crosses. Leave run.lead_in out for {LEAD_IN_SECONDS * s.speed:g} m, or give 0 for level track before the deck.",
+            stacklevel=3,
+        )

@@ -148,6 +148,22 @@ class Coupling:
         kind = next(i for i, (_, cars) in enumerate(self.train.groups()) if car in cars)
         return self.vehicles[kind](longer)[:, 0, u.shape[2] :]
 
+    def body_accelerations(self, state: DeckState) -> list[np.ndarray]:
+        """Return what the deck's motion adds to every car body's accelerations, m/s2, each shape (6, samples).
+
+        See `Vehicle.body_system`. Like `decay`, each car runs on over the level track behind the deck.
+        """
+        result = []
+        for car, (vehicle, window) in enumerate(zip(self.train.vehicles, self.windows, strict=True)):
+            system, direct = vehicle.body_system()
+            met = self.support_input(state, [car])[:, 0]
+            u = np.zeros((len(met), len(self.time) - window.start))
+            u[:, : met.shape[1]] = met
+            added = np.zeros((6, len(self.time)))
+            added[:, window.start :] = system.sampled(self.settings.time_step)(u) + direct @ u
+            result.append(added)
+        return result
+
     def change(self, new: Delta, old: Delta) -> float:
         """Return the largest, over wheels and directions, of rms(new - old) / rms(force - static) while on the deck.
 

@@ -180,6 +180,28 @@ class Train:
         list of ndarray, one for each car, shape (2 wheels of the car, samples)
             N on the deck, lateral before vertical.
         """
+
+        def forces(v: Vehicle, u: np.ndarray) -> np.ndarray:
+            return v.system().sampled(time_step)(u) - u if u.any() else u
+
+        return self._rigid(forces, track, speed, time_step, samples, lead_in, excitation)
+
+    def rigid_accelerations(
+        self, track: Track, speed: float, time_step: float, samples: int, lead_in: float, excitation: str = "wheels"
+    ) -> list[np.ndarray]:
+        """Return the accelerations of every car body on a rigid deck, m/s2, each shape (6, samples).
+
+        Arguments as for `rigid_forces`, places as for `Vehicle.body_system`.
+        """
+
+        def accelerations(v: Vehicle, u: np.ndarray) -> np.ndarray:
+            system, direct = v.body_system()
+            return system.sampled(time_step)(u) + direct @ u if u.any() else np.zeros((6, u.shape[1]))
+
+        return self._rigid(accelerations, track, speed, time_step, samples, lead_in, excitation)
+
+    def _rigid(self, respond, track, speed, time_step, samples, lead_in, excitation) -> list[np.ndarray]:
+        """Run each kind of car once on the irregularity, and shift what it answers to each car's time."""
         inputs.choice("excitation", excitation, ("wheels", "car"))
         advance = speed * time_step
         runs: dict[tuple, np.ndarray] = {}
@@ -192,15 +214,16 @@ class Train:
             own = tuple((n, w) for n, w in own if w)
             key = id(v), max(fraction, 0.0), own
             if key not in runs:
-                runs[key] = self._run(v, track, speed, time_step, samples, lead_in, excitation, key[1], own)
+                u = self._input(v, track, speed, time_step, samples, lead_in, excitation, key[1], own)
+                runs[key] = respond(v, u)
             first = runs[key].shape[1] - samples - shift
             forces = runs[key][:, max(first, 0) : first + samples]
             # A car whose run-up starts after t = 0 stands on level track until then.
             result.append(np.pad(forces, ((0, 0), (max(-first, 0), 0))) if first < 0 else forces)
         return result
 
-    def _run(self, v, track, speed, time_step, samples, lead_in, excitation, fraction, notches) -> np.ndarray:
-        """Run one car from its run-up on; local sample j has the front axle at (j - fraction) V h."""
+    def _input(self, v, track, speed, time_step, samples, lead_in, excitation, fraction, notches) -> np.ndarray:
+        """Return k r + c r' of one car from its run-up on; local sample j has the front axle at (j - fraction) V h."""
         advance = speed * time_step
         before = int(np.ceil(lead_in / advance))
         local = (np.arange(-before, samples) - fraction) * advance
@@ -224,9 +247,7 @@ class Train:
                             own = local - (front - contact.x)
                             r, rate = r + notch.value(own), rate + speed * notch.slope(own)
                 u[2 * i + j] = v.contact_stiffness[i, j] * r + v.contact_damping[i, j] * rate
-        if not u.any():
-            return u
-        return v.system().sampled(time_step)(u) - u
+        return u
 
     def condensation(self, car: int, loads: str) -> Condensation:
         """Return how one car's wheel forces (car from 0) become load stations: axles, bogies or the car's centre.

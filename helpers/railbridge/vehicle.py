@@ -262,6 +262,35 @@ class Vehicle:
         output = np.hstack([k[:, None] * rows, c[:, None] * rows])
         return second_order_system(self.mass_matrix, self.damping_matrix, self.stiffness_matrix, rows.T, output)
 
+    @property
+    def body(self) -> Body:
+        """The car body: the heaviest one."""
+        return max(self.bodies, key=lambda b: b.mass)
+
+    @property
+    def body_places(self) -> dict[str, float]:
+        """Where the car body's motion is told, m ahead of mid-length: above its foremost and rearmost springs, and between."""
+        on = [s.at[0] for s in self.springs if self.body.name in (s.from_, s.to)]
+        return {"front": max(on), "middle": self.body.position[0], "rear": min(on)}
+
+    def body_system(self) -> tuple[LinearSystem, np.ndarray]:
+        """Return how the car body's accelerations follow from the input of `system`.
+
+        At the height of the body's centre of mass, at each of `body_places`: lateral, vertical, so six outputs (m/s2).
+
+        Returns
+        -------
+        LinearSystem
+            What its state gives.
+        ndarray, shape (6, 2 contacts)
+            What the input adds directly; zero where no spring of the body ends on the rail.
+        """
+        height = self.body.position[2]
+        points = [self._point_rows(self.body.name, (x, 0.0, height)) for x in self.body_places.values()]
+        accelerations = np.linalg.solve(self.mass_matrix, np.vstack(points).T).T
+        state = -accelerations @ np.hstack([self.stiffness_matrix, self.damping_matrix])
+        return replace(self.system(), c=state), accelerations @ self._contact_rows()[0].T
+
     def transfer(self, frequency_hz: float) -> np.ndarray:
         """Return the steady contact forces for unit harmonic support motion.
 
