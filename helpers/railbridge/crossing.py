@@ -385,6 +385,8 @@ def _warn_of_transient(coupling: Coupling, track: Track) -> None:
         steady = steady_forces(car, track, s.speed, s.excitation)
     except InputError:  # level, or not harmonic: nothing to compare with
         return
+    if not np.all(np.isfinite(steady)) or not np.any(steady):
+        return
     wavelength = track.shortest  # the only one
     window = coupling.windows[0]
     centre = s.speed * coupling.time[window] - train.centres[0]
