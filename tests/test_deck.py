@@ -1,0 +1,167 @@
+"""The modal deck: Rayleigh damping, shapes, moving loads and the static correction."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import railbridge as rb
+from railbridge.deck import PiecewiseCubic
+
+L, M, EI = 36.0, 12e3, 8.93e10
+
+
+def simple(damping=0.02, modes=12):
+    return rb.Beam("simple", (L,), M, EI, 8.9e11, 8.15e10, polar_inertia=7.02e4).deck(modes, damping)
+
+
+def test_rayleigh_of_the_paper():
+    alpha, beta = rb.rayleigh(0.03, [3.307, 16.30])
+    assert (alpha, beta) == pytest.approx((1.0364, 4.870e-4), rel=2e-4)
+    assert rb.rayleigh_ratio(alpha, beta, np.array([3.307, 16.30])) == pytest.approx([0.03, 0.03])
+    least = np.sqrt(alpha / beta) / 2 / np.pi
+    assert least == pytest.approx(7.34, abs=0.01)
+    assert rb.rayleigh_ratio(alpha, beta, np.array([least, 13.23, 1.389])) == pytest.approx([0.0225, 0.0265, 0.0615], abs=6e-5)
+    critical = (1 + np.sqrt(1 - alpha * beta)) / beta / 2 / np.pi
+    assert critical == pytest.approx(653, abs=1.0)
+    assert rb.deck("viaduct36").damping_ratios[0] == pytest.approx(0.03, abs=1e-5)
+
+
+@pytest.mark.parametrize("wrong", [(0.6, [1, 2]), (-0.1, [1, 2]), (0.03, [2, 2]), (0.03, [1]), (0.03, [0, 1]), (0.03, 5)])
+def test_rayleigh_refuses(wrong):
+    with pytest.raises(rb.InputError, match="damping"):
+        rb.rayleigh(*wrong)
+
+
+@given(seed=st.integers(0, 999), at=st.floats(0.01, 9.99))
+def test_piecewise_cubic_derivatives(seed, at):
+    rng = np.random.default_rng(seed)
+    edges = np.array([0.0, 2.0, 5.0, 10.0])
+    function = PiecewiseCubic(edges, rng.normal(size=(3, 4, 2, 3)))
+    h = 1e-4
+    if np.min(np.abs(edges - at)) > 2 * h:
+        x = np.array([at - h, at, at + h])
+        f, f1, f2 = (function(x, d) for d in range(3))
+        assert (f[2] - f[0]) / (2 * h) == pytest.approx(f1[1], abs=1e-6)
+        assert (f[2] - 2 * f[1] + f[0]) / h**2 == pytest.approx(f2[1], abs=1e-4)
+    assert not function(np.array([-0.1, 10.1])).any()
+
+
+def moving_force(t, speed, load, x, modes, ratio):
+    """Displacement and moment of a simple beam under a constant force, mode by mode in closed form (Fryba 1972)."""
+    displacement, moment = np.zeros_like(t), np.zeros_like(t)
+    for n in range(1, modes + 1):
+        w = (n * np.pi / L) ** 2 * np.sqrt(EI / M)
+        drive, damped = n * np.pi * speed / L, w * np.sqrt(1 - ratio**2)
+        gain = -2 * load / M / L
+        # Particular solution a sin + b cos, then the free part that starts from rest.
+        matrix = np.array([[w**2 - drive**2, -2 * ratio * w * drive], [2 * ratio * w * drive, w**2 - drive**2]])
+        a, b = np.linalg.solve(matrix, [gain, 0.0])
+        c1, c2 = -b, -(a * drive + ratio * w * b) / damped
+        q = a * np.sin(drive * t) + b * np.cos(drive * t)
+        q += np.exp(-ratio * w * t) * (c1 * np.cos(damped * t) + c2 * np.sin(damped * t))
+        shape = np.sin(n * np.pi * x / L)
+        displacement += q * shape
+        moment += EI * (n * np.pi / L) ** 2 * q * shape
+    return displacement, moment
+
+
+@pytest.mark.parametrize("speed", [20.0, 60.0, 100.0])
+def test_one_moving_force_on_a_simple_beam(speed):
+    ratio, load, x = 0.02, 2e5, 14.0
+    run = rb.cross(rb.AxleTrain([0.0], [load]), simple(ratio, 36), speed=speed, time_step=2e-4, tail=0.0)
+    t = run.time
+    on = t < L / speed
+    displacement, moment = moving_force(t, speed, load, x, 12, ratio)
+    ours = run.displacement(x=x)["displacement_z"]
+    assert ours[on] == pytest.approx(displacement[on], abs=2e-4 * np.abs(displacement).max())
+    # With the static correction few modes give the moment that takes the series hundreds.
+    _, moment = moving_force(t, speed, load, x, 400, ratio)
+    few = rb.cross(rb.AxleTrain([0.0], [load]), simple(ratio, 36), speed=speed, time_step=2e-4, tail=0.0)
+    ours = few.section_forces(x=x)["moment_vertical"]
+    assert ours[on] == pytest.approx(moment[on], abs=6e-3 * np.abs(moment).max())
+
+
+def test_a_slowly_moving_force_gives_influence_lines():
+    load, speed, x = 1e5, 1.0, 9.0
+    train = rb.AxleTrain([0.0], [load])
+    run = rb.cross(train, simple(0.3, 9), speed=speed, time_step=0.02, tail=0.0, track_offset=2.4)
+    place = speed * run.time
+    on = (place > 0.5) & (place < L - 0.5) & (np.abs(place - x) > 0.1)
+    place = place[on]
+    forces = run.section_forces(x=x)
+    triangle = np.where(place < x, place * (L - x), x * (L - place)) / L
+    assert forces["moment_vertical"][on] == pytest.approx(-load * triangle, abs=2e-3 * load * 9)
+    shear = np.where(place < x, -place / L, 1 - place / L)
+    assert forces["shear_vertical"][on] == pytest.approx(-load * shear, abs=5e-3 * load)
+    assert forces["torsion"][on] == pytest.approx(-2.4 * load * shear, abs=5e-3 * 2.4 * load)
+    reactions = run.reactions()
+    left, right = reactions[0.0], reactions[L]
+    assert left["force_z"][on] == pytest.approx(load * (1 - place / L), abs=5e-3 * load)
+    assert right["force_z"][on] == pytest.approx(load * place / L, abs=5e-3 * load)
+    assert left["moment_x"][on] == pytest.approx(2.4 * load * (1 - place / L), abs=5e-3 * 2.4 * load)
+    assert (left["force_z"] + right["force_z"])[on] == pytest.approx(load, rel=5e-3)
+
+
+def test_couples_of_condensed_loads_do_work_on_slopes():
+    """A slow condensed car: moment lines of the resultant and of its couples, from the influence line's slope."""
+    car = rb.vehicle("xia2000")
+    body = car.bodies[0]
+    heavy_nose = rb.Vehicle(
+        "nose", (rb.Body(body.name, body.mass, body.inertia, (2.0, 0.0, 1.41)), *car.bodies[1:]), car.springs, 22.5
+    )
+    run = rb.cross(rb.Train(heavy_nose), simple(0.3, 9), speed=2.0, time_step=0.02, loads="condensed", tail=0.0, iterations=2)
+    place = 2.0 * run.time - 9.05
+    on = (place > 4.0) & (place < 17.0)
+    weight, couple = heavy_nose.weight, 2.0 * body.mass * 9.81  # about y at the middle: the load stands 2 m ahead
+    reaction = run.reactions()[L]["force_z"][on]
+    assert reaction == pytest.approx((weight * place[on] + couple) / L, rel=1e-2)
+
+
+@given(offset=st.floats(-3.0, 3.0), seed=st.integers(0, 99))
+@settings(max_examples=5)
+def test_loads_add_up(offset, seed):
+    """The deck is linear: three axles are the sum of three single ones, each later."""
+    rng = np.random.default_rng(seed)
+    loads = rng.uniform(5e4, 2e5, 3)
+    axles = [0.0, 4.0, 10.0]
+    together = rb.cross(rb.AxleTrain(axles, loads), DECK, speed=40.0, time_step=1e-3, track_offset=offset)
+    y = together.displacement(x=13.0)
+    total = {k: np.zeros_like(v) for k, v in y.values.items()}
+    for axle, load in zip(axles, loads, strict=True):
+        single = rb.cross(rb.AxleTrain([0.0], [load]), DECK, speed=40.0, time_step=1e-3, track_offset=offset, tail=1.5)
+        late = round(axle / 40.0 / 1e-3)
+        for k, v in single.displacement(x=13.0).values.items():
+            total[k][late:] += v[: len(total[k]) - late]
+    for k, v in total.items():
+        assert y[k] == pytest.approx(v, abs=1e-9 * np.abs(y["displacement_z"]).max())
+
+
+DECK = simple(0.02, 12)
+
+
+def test_names_tracks_and_frames():
+    deck = rb.deck("viaduct36")
+    assert deck.track_offset("left") == 2.4 and deck.track_offset("right") == -2.4
+    assert deck.has == {"y": True, "z": True, "roll": True}
+    assert len(deck.to_frame()) == 20
+    run = rb.cross(rb.AxleTrain([0.0], [1e5]), deck, speed=50.0)
+    frame = run.displacement(x=18.0).to_frame()
+    assert list(frame.columns) == ["displacement_y (m)", "displacement_z (m)", "rotation_x (rad)"]
+    value, time = run.displacement(x=18.0).extreme("displacement_z")
+    assert value < 0 and 0 < time < 1
+    with pytest.raises(rb.InputError, match="displacement_z"):
+        run.displacement(x=18.0)["displacment_z"]
+
+
+def test_static_values_of_the_lesson():
+    """Four axles and one resultant, m = 12.0 t/m: 4.810 and 6.372 mm, 2987 and 5272 kN m."""
+    recovery = rb.deck("viaduct36").recovery
+    w, m = (recovery.section(q, 18.0).influence for q in ("displacement_z", "moment_vertical"))
+    four = 18.0 + np.array([9.05, 6.55, -6.55, -9.05])
+    one = np.array([18.0])
+    total = 585.76e3
+    assert total * w(one)[:, 0, 1].mean() == pytest.approx(6.372e-3, rel=2e-3)
+    assert total * w(four)[:, 0, 1].mean() == pytest.approx(4.810e-3, rel=2e-3)
+    assert total * m(one)[:, 0, 1].mean() == pytest.approx(5272e3, rel=1e-3)
+    assert total * m(four)[:, 0, 1].mean() == pytest.approx(2987e3, rel=1e-3)

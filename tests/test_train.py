@@ -1,0 +1,199 @@
+"""Trains: where wheels stand, rigid-deck forces against closed forms, condensation by hand."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import railbridge as rb
+
+CAR = rb.vehicle("xia2000")
+V = 20.0
+
+
+def waves(wavelength, **lateral):
+    return rb.Track(vertical=rb.Harmonic(5e-3, wavelength=wavelength), **lateral)
+
+
+def bounce(forces):
+    return abs(forces[1::2].sum())
+
+
+def pitch(forces):
+    return abs(sum(-c.x * f for c, f in zip(CAR.contacts, forces[1::2], strict=True)))
+
+
+def test_wheels_of_a_train():
+    train = rb.Train(CAR, cars=2, car_spacing=22.5)
+    wheels = train.wheels
+    assert [(w.car, w.number) for w in wheels] == [(c, n) for c in (1, 2) for n in range(1, 9)]
+    assert [w.delay for w in wheels] == pytest.approx(np.repeat([0, 2.5, 15.6, 18.1, 22.5, 25.0, 38.1, 40.6], 2).tolist())
+    assert {w.side for w in wheels if w.y > 0} == {"left"} and {w.side for w in wheels if w.y < 0} == {"right"}
+    assert train.length == pytest.approx(40.6)
+    assert train.centres == pytest.approx([9.05, 31.55])
+    assert rb.Train(CAR, cars=2).centres == pytest.approx(train.centres)  # the vehicle's own length
+
+
+def test_mixed_train_takes_half_lengths():
+    short = rb.sprung_mass("m", 1e4, 1e6, length=10.0)
+    train = rb.Train((CAR, short, CAR))
+    assert train.centres == pytest.approx([9.05, 9.05 + 16.25, 9.05 + 32.5])
+    assert train.cars == 3 and len(train.groups()) == 2
+
+
+@pytest.mark.parametrize(("wavelength", "with_delays", "in_phase"), [(14.4, 75.8e3, 91.8e3), (15.0, 81.0e3, 94.2e3)])
+def test_bounce_amplitude_of_the_paper_s_waves(wavelength, with_delays, in_phase):
+    assert bounce(rb.steady_forces(CAR, waves(wavelength), V)) == pytest.approx(with_delays, rel=1e-3)
+    assert bounce(rb.steady_forces(CAR, waves(wavelength), V, "car")) == pytest.approx(in_phase, rel=1e-3)
+    # Delays act as the wheelbase filter.
+    filtered = abs(np.cos(2 * np.pi * 7.8 / wavelength) * np.cos(2 * np.pi * 1.25 / wavelength))
+    assert with_delays / in_phase == pytest.approx(filtered, rel=2e-3)
+
+
+def test_short_waves_leave_pitch_and_no_bounce():
+    forces = rb.steady_forces(CAR, rb.Track(vertical=rb.Harmonic(5e-3, length=36.0, half_waves=11.7)), V)
+    assert bounce(forces) == pytest.approx(0.58e3, rel=0.02)
+    assert pitch(forces) == pytest.approx(52.6e3, rel=2e-3)
+    in_phase = rb.steady_forces(CAR, rb.Track(vertical=rb.Harmonic(5e-3, length=36.0, half_waves=11.7)), V, "car")
+    assert bounce(in_phase) == pytest.approx(18e3, rel=0.03)
+
+
+def test_worst_unloading():
+    forces = rb.steady_forces(CAR, waves(14.4, lateral=rb.Harmonic(2e-3, wavelength=14.4, phase=np.pi / 2)), V)
+    assert np.abs(forces[1::2]).max() / CAR.contacts[0].static_load == pytest.approx(0.149, abs=1e-3)
+
+
+@given(
+    wavelength=st.floats(6.0, 40.0), phase=st.floats(-3, 3), speed=st.floats(15.0, 60.0), sides=st.booleans(),
+    excitation=st.sampled_from(["wheels", "car"]),
+)  # fmt: skip
+@settings(max_examples=8)
+def test_rigid_forces_settle_to_the_closed_form(wavelength, phase, speed, sides, excitation):
+    vertical = rb.Harmonic(5e-3, wavelength=wavelength, phase=phase)
+    other = rb.Harmonic(2e-3, wavelength=wavelength, phase=1.0)
+    track = rb.Track(vertical=rb.Rails(vertical, other) if sides else vertical, lateral=other)
+    train = rb.Train(CAR, cars=2, car_spacing=23.7)
+    h, n = 2e-3, 800
+    forces = train.rigid_forces(track, speed, h, n, 40 * speed, excitation)
+    steady = rb.steady_forces(CAR, track, speed, excitation)
+    for car in (0, 1):
+        centre = speed * h * np.arange(n) - train.centres[car]
+        exact = (steady[:, None] * np.exp(2j * np.pi * centre / wavelength)).imag
+        # What is left is the sampling, second order in the step.
+        assert np.abs(forces[car] - exact).max() < 4e-3 * np.abs(exact).max() + 1.0
+
+
+def test_rigid_forces_are_second_order_in_the_step():
+    track, speed = waves(14.4, lateral=rb.Harmonic(2e-3, wavelength=14.4, phase=1.0)), 20.0
+    steady = rb.steady_forces(CAR, track, speed)
+    errors = []
+    for h in (8e-3, 4e-3, 2e-3):
+        n = round(1.6 / h)
+        centre = speed * h * np.arange(n) - 9.05
+        exact = (steady[:, None] * np.exp(2j * np.pi * centre / 14.4)).imag
+        errors.append(np.abs(rb.Train(CAR).rigid_forces(track, speed, h, n, 1000.0)[0] - exact).max())
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
+    assert errors[1] / errors[2] == pytest.approx(4.0, rel=0.1)
+
+
+@pytest.mark.parametrize("spacing", [22.5, 22.513, 23.0071])
+def test_a_car_further_back_feels_the_same_later(spacing):
+    """Cars that do not meet the samples alike are run each in its own place between them."""
+    track = rb.Track(vertical=rb.Harmonic(5e-3, wavelength=11.0), lateral=rb.Harmonic(2e-3, wavelength=13.0))
+    h, n = 1e-3, 4000
+    forces = rb.Train(CAR, cars=3, car_spacing=spacing).rigid_forces(track, V, h, n, 150.0)
+    t = h * np.arange(n)
+    for car in (1, 2):
+        late = car * spacing / V
+        moved = np.array([np.interp(t - late, t, f) for f in forces[0]])
+        inside = t > late + 0.01
+        scale = np.abs(forces[0]).max()
+        assert forces[car][:, inside] == pytest.approx(moved[:, inside], abs=3e-5 * scale)
+    # One car standing `spacing` further back, run on its own, is the same run exactly.
+    if spacing == 22.5:
+        assert forces[1][:, 1125:] == pytest.approx(forces[0][:, :-1125], abs=1e-9)
+
+
+def test_before_its_run_up_a_car_far_back_stands_on_level_track():
+    train = rb.Train(CAR, cars=4, car_spacing=22.5)
+    forces = train.rigid_forces(waves(14.4), V, 1e-3, 6000, 10.0)
+    assert not forces[3][:, : int(1000 * (67.5 - 10.0) / V)].any()
+    assert forces[3][:, int(1000 * 67.5 / V)].any()
+
+
+def test_a_notch_is_felt_by_its_wheel_first_and_no_other_car():
+    notch = rb.Notch(((2, 3),), circumference=2.8, offset=5.0, depth=1e-3, length=0.2)
+    train = rb.Train(CAR, cars=2, car_spacing=22.5, notches=(notch,))
+    h, n = 2e-4, 12_000
+    forces = train.rigid_forces(rb.Track(), V, h, n, 0.0)
+    assert not forces[0].any()
+    meets = (5.0 + 22.5 + 2.5) / V  # wheel 3 is 2.5 m behind its car's first axle
+    t = h * np.arange(n)
+    assert not forces[1][:, t < meets - h].any()
+    shortly = (t >= meets) & (t < meets + 0.2 / V)
+    vertical = np.abs(forces[1][1::2, shortly]).max(axis=1)
+    assert np.argmax(vertical) == 2
+    assert vertical[2] > 5 * np.delete(vertical, 2).max()
+    # The wheel drops into the notch: first the force on the rail is relieved.
+    first = forces[1][5, shortly]
+    assert first[np.argmax(np.abs(first) > 100.0)] > 0
+
+
+def test_notch_as_in_the_paper_is_nearly_all_damper():
+    notch = rb.Notch(((1, 1),), circumference=2.8, offset=1.0, depth=1e-3, length=0.05)
+    forces = rb.Train(CAR, notches=(notch,)).rigid_forces(rb.Track(), V, 2.5e-5, 4000, 0.0)[0][1]
+    damper = 15e3 * V * np.pi * 1e-3 / 0.05
+    assert np.abs(forces).max() == pytest.approx(damper, rel=0.15)
+    assert 17e3 < np.abs(forces).max() < 23e3
+
+
+@pytest.mark.parametrize(("loads", "stations", "components"), [("wheels", 4, 3), ("bogies", 2, 5), ("condensed", 1, 5)])
+def test_condensation_does_the_same_work(loads, stations, components):
+    """Virtual work on any motion the stations can follow: linear along x within a station, any twist."""
+    condensation = rb.Train(CAR).condensation(0, loads)
+    assert condensation.matrix.shape == (stations, components, 16)
+    rng = np.random.default_rng(3)
+    forces = rng.normal(size=16)
+    total = 0.0
+    for s, offset in enumerate(condensation.offsets):
+        v, w, theta, slope_w, slope_v = rng.normal(size=5)
+        if components == 3:
+            slope_w = slope_v = 0.0
+        motion = np.array([v, w, theta, -slope_w, slope_v])[:components]
+        load = condensation.matrix[s] @ forces
+        for i, c in enumerate(CAR.contacts):
+            here = {"wheels": c.x == offset, "bogies": c.x * offset > 0, "condensed": True}[loads]
+            if here:
+                dx = c.x - offset
+                total += forces[2 * i] * (v + slope_v * dx) + forces[2 * i + 1] * (w + slope_w * dx + c.y * theta)
+        total -= load @ motion
+    assert total == pytest.approx(0.0, abs=1e-12)
+    places = {"wheels": [9.05, 6.55, -6.55, -9.05], "bogies": [7.8, -7.8], "condensed": [0.0]}[loads]
+    assert condensation.offsets == pytest.approx(places)
+
+
+def test_signs_of_the_condensed_components():
+    def of(wheel, direction):
+        forces = np.zeros(16)
+        forces[2 * wheel + direction] = 1.0
+        return rb.Train(CAR).condensation(0, "condensed").matrix[0] @ forces
+
+    assert of(0, 0) == pytest.approx([1, 0, 0, 0, 9.05])  # front left, pushed left: yaw to the left
+    assert of(0, 1) == pytest.approx([0, 1, 0.98, -9.05, 0])  # lifted: rolls to the right, nose up is negative pitch
+    assert of(7, 1) == pytest.approx([0, 1, -0.98, 9.05, 0])
+
+
+def test_axle_train():
+    train = rb.AxleTrain([0.0, 3.0, 14.0], [1e5, 2e5, 1e5])
+    assert train.length == 14.0 and len(train.wheels) == 3
+    assert train.static_forces(0) == pytest.approx([0, -1e5, 0, -2e5, 0, -1e5])
+    assert not train.rigid_forces(waves(14.4), V, 1e-3, 50, 10.0)[0].any()
+    with pytest.raises(rb.InputError, match="no cars to condense"):
+        train.condensation(0, "condensed")
+
+
+def test_steady_state_needs_one_wavelength():
+    track = rb.Track(vertical=rb.Harmonic(5e-3, wavelength=14.4), lateral=rb.Harmonic(5e-3, wavelength=12.0))
+    for wrong in (track, rb.Track(), rb.Track(vertical=rb.Table([0, 10.0], [0, 1e-3]))):
+        with pytest.raises(rb.InputError, match="one wavelength"):
+            rb.steady_forces(CAR, wrong, V)
