@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -21,7 +21,8 @@ from . import beam, inputs
 from .crossing import Crossing, cross
 from .deck import Deck
 from .inputs import InputError
-from .settings import check
+from .settings import Settings, check
+from .summary import summarize
 from .track import Harmonic, Irregularity, Level, Notch, Rails, Table, Track
 from .train import AxleTrain, Train
 from .vehicle import Vehicle, vehicle
@@ -47,6 +48,8 @@ class Case:
     track : Track
     options : dict
         Keyword arguments of `cross`.
+    settings : Settings
+        What was left open in them filled in.
     points : ndarray
         Places of interest along the deck, m.
     """
@@ -56,6 +59,7 @@ class Case:
     deck: Deck = field(init=False, repr=False)
     track: Track = field(init=False, repr=False)
     options: dict[str, Any] = field(init=False, repr=False)
+    settings: Settings = field(init=False, repr=False)
     points: np.ndarray = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -67,7 +71,7 @@ class Case:
         deck = _deck(content["deck"])
         track = _track(content.get("track", {}))
         options = {**run, "track_offset": offset}
-        check(train, deck, track, **options)
+        settings = check(train, deck, track, **options)
         output = inputs.table("output", content.get("output", {}))
         inputs.keys("output", output, ["points"])
         points = output.get("points", [deck.length / 2])
@@ -80,6 +84,7 @@ class Case:
             ("deck", deck),
             ("track", track),
             ("options", options),
+            ("settings", settings),
             ("points", points),
         ]:
             object.__setattr__(self, name, value)
@@ -114,9 +119,13 @@ class Case:
             place = place.get(part) if isinstance(place, dict) else None
         return copy.deepcopy(place)
 
-    def run(self) -> Crossing:
+    def run(self, progress: Callable[[str], None] | None = None) -> Crossing:
         """Compute the crossing; see `cross`."""
-        return cross(self.train, self.deck, self.track, **self.options)
+        return cross(self.train, self.deck, self.track, **self.options, progress=progress)
+
+    def summary(self, run: Crossing | None = None) -> dict[str, Any]:
+        """Return the numbers engineers look at first (of a run of this case, if there is one already); see `summarize`."""
+        return summarize(run or self.run(), self.points)
 
     def code(self) -> str:
         """Return Python lines that build and run this very case."""
@@ -138,7 +147,29 @@ def case(source: str | Path | Mapping[str, Any]) -> Case:
     path = inputs.data_file("cases", source)
     if path.suffix != ".toml":
         raise InputError("case", str(source), "case files are TOML")
-    return Case(inputs.read_toml(path))
+    return Case(_beside(inputs.read_toml(path), path.parent))
+
+
+def _beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Make paths in a case file, which are relative to it, paths that can be opened from here."""
+
+    def opened(name: Any) -> Any:
+        is_path = isinstance(name, str) and (name.endswith((".csv", ".toml")) or len(Path(name).parts) > 1)
+        return str(folder / name) if is_path else name
+
+    def change(place: Any, key: str) -> None:
+        if isinstance(place, dict) and key in place:
+            place[key] = opened(place[key])
+
+    content = copy.deepcopy(content)
+    train = content.get("train")
+    change(content.get("deck"), "file")
+    change(train, "vehicle")
+    if isinstance(train, dict) and isinstance(train.get("cars"), list):
+        for car in train["cars"]:
+            change(car, "vehicle")
+        train["cars"] = [opened(c) for c in train["cars"]]
+    return content
 
 
 def _deck(raw: Any) -> Deck:
@@ -187,7 +218,9 @@ def _train(raw: Any) -> tuple[Train | AxleTrain, float | str]:
         if isinstance(t.get("cars"), list):
             if "vehicle" in t:
                 raise InputError("train.vehicle", t["vehicle"], "give either vehicle with a number of cars, or a list of cars")
-            return Train(tuple(v for i, c in enumerate(t["cars"], 1) for v in _cars(i, c)), None, spacing, notches), offset
+            cars = [v for i, c in enumerate(t["cars"][:1001], 1) for v in _cars(i, c)]
+            inputs.integer("train.cars: number of cars", len(cars), least=1, most=1000)
+            return Train(tuple(cars), None, spacing, notches), offset
         inputs.keys("train", t, t, ["vehicle"])
         return Train(_vehicle(t["vehicle"]), t.get("cars", 1), spacing, notches), offset
 

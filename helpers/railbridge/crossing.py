@@ -3,6 +3,7 @@ r"""One train crosses one deck at one speed: rigid, or iterated to the fixed poi
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -271,14 +272,28 @@ class Crossing:
 
     def static(self, line: Line) -> np.ndarray:
         """Return what an influence line gives under the loads of every instant, as if they stood still, shape (n,)."""
-        total = np.zeros(len(self.time))
-        for (start, values, _), load, delay in zip(self.coupling.loads, self._loads, self.coupling.load_delays, strict=True):
-            window = slice(start, start + values.shape[1])
-            x = np.clip(self.settings.speed * self.time[window] - delay, 0.0, self.deck.length)
-            total[window] += np.einsum("kc,ck->k", line.influence(x)[:, 0], load[:3])
-            if len(load) == 5:
-                slope = line.influence(x, 1)[:, 0]
-                total[window] += slope[:, 0] * load[4] - slope[:, 1] * load[3]
+        return self.statics([line])[0]
+
+    def statics(self, lines: Sequence[Line]) -> np.ndarray:
+        """Return `static` of several influence lines, shape (lines, n)."""
+        total = np.zeros((len(lines), len(self.time)))
+        stations = self.coupling.loads
+        for which in range(len(stations.tables)):
+            # Stations that meet the samples alike share the line's values.
+            members = np.flatnonzero(stations.which == which)
+            longest = members[np.argmax(stations.counts[members])]
+            instants = self.time[stations.starts[longest] :][: stations.counts[longest]]
+            x = np.clip(self.settings.speed * instants - self.coupling.load_delays[longest], 0.0, self.deck.length)
+            values = np.array([line.influence(x)[:, 0].T for line in lines])
+            couples = len(self._loads[members[0]]) == 5
+            slopes = np.array([line.influence(x, 1)[:, 0].T for line in lines]) if couples else None
+            for station in members:
+                load, start, count = self._loads[station], stations.starts[station], stations.counts[station]
+                part = total[:, start : start + count]
+                for c in range(3):
+                    part += values[:, c, :count] * load[c]
+                if couples:
+                    part += slopes[:, 0, :count] * load[4] - slopes[:, 1, :count] * load[3]
         return total
 
 
@@ -300,6 +315,7 @@ def cross(
     relaxation: float | str | None = None,
     excitation: str = "wheels",
     feedback: str = "all",
+    progress: Callable[[str], None] | None = None,
 ) -> Crossing:
     """Compute a crossing.
 
@@ -338,6 +354,8 @@ def cross(
     feedback : {"all", "vertical"}
         Whether the train feels the deck's whole motion or only its vertical displacement, without twist (a guess at the
         paper's reading).
+    progress : function of one text, optional
+        Called now and then with how far the computation is.
 
     Returns
     -------
@@ -367,8 +385,8 @@ def cross(
     if interaction == "rigid":
         return Crossing(train, deck, track, settings, (coupling.at_rest(),), (), None, 0, coupling)
     if interaction == "direct":
-        return Crossing(train, deck, track, settings, (coupling.at_rest(), direct(coupling)), (), None, 1, coupling)
-    found = iterate(coupling)
+        return Crossing(train, deck, track, settings, (coupling.at_rest(), direct(coupling, progress)), (), None, 1, coupling)
+    found = iterate(coupling, progress)
     run = Crossing(train, deck, track, settings, found.passes, found.changes, found.converged, len(found.changes), coupling)
     if iterations is None and not found.converged:
         raise NotConvergedError(run)

@@ -17,6 +17,8 @@ which leaves one linear system of the size of the number of modes at every step.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from scipy.linalg import block_diag
 
@@ -26,7 +28,7 @@ from .response import LinearSystem, oscillator
 __all__ = ["direct"]
 
 
-def direct(coupling: Coupling) -> Delta:
+def direct(coupling: Coupling, progress: Callable[[str], None] | None = None) -> Delta:
     """Return what the deck's motion adds to each car's wheel forces while it is on the deck, N. Wheel loads only.
 
     A step loop, about 0.1 ms a step: the iteration stays the fast path.
@@ -36,7 +38,10 @@ def direct(coupling: Coupling) -> Delta:
     modes = len(coupling.modes)
     deck = _Stepper(_deck_system(coupling), coupling.settings.time_step)
     cars = [_Car(coupling, car) for car in range(len(coupling.windows))]
-    for k in range(max(w.stop for w in coupling.windows)):
+    steps = max(w.stop for w in coupling.windows)
+    for k in range(steps):
+        if progress is not None and k % 500 == 0:
+            progress(f"step {k} of {steps}")
         state, reach = deck.predict()
         here = [c for c in cars if c.window.start <= k < c.window.stop]
         force, coupled = np.zeros(modes), np.eye(modes)

@@ -14,6 +14,7 @@ paper).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -227,7 +228,7 @@ class FixedPoint:
     converged: bool
 
 
-def iterate(coupling: Coupling) -> FixedPoint:
+def iterate(coupling: Coupling, progress: Callable[[str], None] | None = None) -> FixedPoint:
     """Repeat the steps until the change is below the tolerance twice in a row, or for a given number of passes."""
     s = coupling.settings
     passes, changes = [coupling.at_rest()], []
@@ -237,6 +238,8 @@ def iterate(coupling: Coupling) -> FixedPoint:
         old = passes[-1]
         new = coupling.train_pass(coupling.deck_state(coupling.station_loads(old)))
         changes.append(coupling.change(new, old))
+        if progress is not None:
+            progress(f"iteration {len(changes)}: change {changes[-1]:.1e}")
         if s.relaxation is not None:
             step = [n - o for n, o in zip(new, old, strict=True)]
             if s.relaxation == "aitken" and previous is not None:
