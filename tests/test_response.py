@@ -106,6 +106,17 @@ def test_sine_is_met_to_second_order(ratio):
     assert fine < 1e-5
 
 
+def test_a_high_frequency_is_no_reason_for_the_slow_block():
+    h, n = 1e-3, 50
+    t = h * np.arange(n)
+    for omega in (1e5, 1e9):
+        system = oscillator(omega, 0.01).sampled(h)
+        assert system.block is None
+        q, v = closed_form(omega, 0.01, t)
+        y = system(t[None])
+        assert y[0] == pytest.approx(q, rel=1e-9, abs=1e-12 / omega**2)
+
+
 def test_the_first_sample_of_input_does_not_move_the_state():
     y = oscillator(5.0, 0.1).sampled(0.01)(np.ones((1, 3)))
     assert np.all(y[:, 0] == 0.0)

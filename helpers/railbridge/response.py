@@ -18,7 +18,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import eig, expm
+from scipy.linalg import eig, expm, matrix_balance
 from scipy.signal import lfilter
 
 from .inputs import number
@@ -76,10 +76,12 @@ class LinearSystem:
     def sampled(self, time_step: float) -> SampledResponse:
         """Prepare the exact response at a fixed time step (s)."""
         h = number("time_step", time_step, above=0.0, unit="s")
-        poles, vectors = eig(self.a)
+        # Displacements and velocities differ in size by the frequency: balanced, that does not count against the eigenvectors.
+        balanced, (scale, _) = matrix_balance(self.a, permute=False, separate=True)
+        poles, vectors = eig(balanced)
         if np.linalg.cond(vectors) > _WORST_CONDITION:
             return self._block(h)
-        inverse = np.linalg.inv(vectors)
+        vectors, inverse = scale[:, None] * vectors, np.linalg.inv(vectors) / scale
         keep = poles.imag >= 0.0
         weight = np.where(poles[keep].imag > 0.0, 2.0, 1.0)
         left = (inverse @ self.b)[keep]
