@@ -59,11 +59,12 @@ def figures(case, run):
         "wheel_force": lambda: plots.wheel_force(run),
         "wheel_forces": lambda: plots.wheel_forces(run, 2),
         "wheel_paths": lambda: plots.wheel_paths(train, track, 20.0),
+        "wheels_on_track": lambda: plots.wheels_on_track(train, track),
     }
 
 
 @pytest.mark.parametrize("name", plots.__all__)
-def test_every_figure_is_drawn_with_units_and_without_side_effects(name, figures):
+def test_every_figure_has_units_no_side_effects_and_a_legend_above_the_data(name, figures):
     before = dict(mpl.rcParams)
     axes = np.ravel(np.asarray(figures[name](), dtype=object))
     figure = axes[0].figure
@@ -73,12 +74,7 @@ def test_every_figure_is_drawn_with_units_and_without_side_effects(name, figures
     labels = " ".join(ax.get_xlabel() + ax.get_ylabel() for ax in axes)
     assert any(f"({unit})" in labels for unit in ("m", "s", "Hz", "mm", "kN", "-", "%")), labels
     assert figure.get_figwidth() == drawing.WIDTH
-
-
-@pytest.mark.parametrize("name", plots.__all__)
-def test_legends_stand_above_the_data(name, figures):
-    axes = np.ravel(np.asarray(figures[name](), dtype=object))
-    axes[0].figure.canvas.draw()
+    # A legend stands above the data.
     for ax in axes:
         if ax.get_legend() is not None:
             box, frame = ax.get_legend().get_window_extent(), ax.get_window_extent()
@@ -93,11 +89,11 @@ def test_given_axes_are_used_and_returned(run):
     assert plt.get_fignums() == [figure.number]
 
 
-@pytest.mark.parametrize("vehicle", ["xia2000", "xia2000_planar", "sprung_mass"])
-def test_any_vehicle_can_be_sketched_and_all_its_modes(vehicle):
+@pytest.mark.parametrize(("vehicle", "modes"), [("xia2000", (1, 9, 15)), ("xia2000_planar", (1, 3)), ("sprung_mass", (1,))])
+def test_any_vehicle_and_its_modes_can_be_sketched(vehicle, modes):
     v = rb.vehicle(vehicle)
     assert len(plots.vehicle(v)) == 3
-    for mode in range(1, len(v.labels) + 1):
+    for mode in modes:
         axes = plots.vehicle_mode(v, mode)
         assert axes[0].get_title(loc="left").startswith(f"mode {mode}: ")
         plt.close("all")

@@ -162,12 +162,13 @@ def note(ax: Axes, name: str, text: str, x: float, y: float, data_x: bool = Fals
         transform = ax.get_xaxis_transform() if data_x else ax.transAxes
         artist = ax.text(x, y, text, transform=transform, **{"va": "top", "size": 8.5, **options})
         artist.set_gid(name)
-    artist.set_text(text)
-    artist.set_position((x, y))
+    artist.set(text=text, position=(x, y), **options)
 
 
 def finish(ax: Axes, x: str | None = None, y: str | None = None, title: str | None = None, legend: bool = True) -> Axes:
     """Label an axes, put its legend above it where it covers nothing, and fit a live axes to its data."""
+    if y is not None and len(y) > 12 * ax.get_position().height * ax.figure.get_figheight():
+        y = y.replace(" (", "\n(")
     for text, now, put in ((x, ax.get_xlabel, ax.set_xlabel), (y, ax.get_ylabel, ax.set_ylabel)):
         if text is not None and now() != text:
             put(text)
@@ -190,6 +191,8 @@ def finish(ax: Axes, x: str | None = None, y: str | None = None, title: str | No
 
 def log_frequencies(ax: Axes) -> None:
     """Give a logarithmic frequency axis plain round numbers."""
+    if ax.get_xscale() == "log":
+        return
     ax.set_xscale("log")
     ax.set_xticks([d * 10.0**p for p in range(-2, 4) for d in (1, 2, 5)])
     ax.xaxis.set_major_formatter("{x:g}")

@@ -19,13 +19,14 @@ from .inputs import InputError
 from .sketches import train_on_deck, vehicle, vehicle_mode
 from .spectra import Spectrum, deviation_percent
 from .track import FadeIn, Notch, Track
-from .train import CONDENSED, Train
+from .train import CONDENSED, AxleTrain, Train
 from .vehicle import Vehicle
 
 __all__ = [
     "acceleration", "car_forces", "convergence", "damping", "deck_mode", "deck_modes", "deviations", "displacement",
     "frequencies", "influence_line", "irregularity", "iterations", "load_modes", "notch", "reactions", "section_force", "slope",
     "spectra", "spectrum", "train_on_deck", "vehicle", "vehicle_mode", "velocity", "wheel_force", "wheel_forces", "wheel_paths",
+    "wheels_on_track",
 ]  # fmt: skip
 
 TIME = "time since the first axle entered (s)"
@@ -105,6 +106,18 @@ def notch(notch: Notch, start: float, stop: float, ax: Axes | None = None) -> Ax
     return finish(ax, "place of the wheel from the bridge entrance (m)", "r (mm)")
 
 
+def wheels_on_track(train: Train | AxleTrain, track: Track, position: float = 18.0, ax: Axes | None = None) -> Axes:
+    """Mark where the left wheels stand on the vertical irregularity when the first axle is at `position` (m)."""
+    ax = one(ax)
+    low, high = sorted(ax.get_xlim()) if ax.lines else (-np.inf, np.inf)
+    style = look("force_z")
+    wheels = [w for w in train.wheels if w.side == "left" and low <= position - w.delay <= high]
+    x = position - np.array([w.delay for w in wheels])
+    r = look("irregularity_vertical").factor * track.rail("vertical", "left").value(x)
+    curve(ax, "wheels", x, r, label="wheels of the train", color=style.colour, ls="", marker="o", ms=6, zorder=4)
+    return finish(ax, ALONG, "irregularity r (mm)")
+
+
 def wheel_paths(
     train: Train,
     track: Track,
@@ -168,7 +181,7 @@ def frequencies(
     style = look("displacement_z")
     curve(ax, "natural", np.repeat(shown, 3), np.tile([0.0, 1.0, np.nan], len(shown)), color=style.colour)
     for i, (f, near) in enumerate(groups):
-        text = ", ".join(list(dict.fromkeys(near))[:2]) + " "
+        text = " \n".join(list(dict.fromkeys(near))[:2]) + " "
         note(ax, f"name {i}", text, f, 0.96, data_x=True, rotation=90, ha="right", size=7.5, color=style.colour)
     force = look("force_z")
     for name, f in (mark or {}).items():
@@ -276,8 +289,7 @@ def car_forces(
             curve(ax, "steady", ends, lines, label="steady amplitude", color="k", ls=":", lw=1.2)
         word = style.words if style.words.count(" ") == 0 else style.words.replace(" ", "\n", 1)
         finish(ax, TIME if ax is axes[-1] else "", f"{word}\n({style.unit})", legend=ax is axes[0])
-        if not is_live(ax):
-            ax.yaxis.set_label_coords(-0.075, 0.5)
+    axes[0].figure.align_ylabels(axes)
     return axes
 
 
@@ -317,9 +329,8 @@ def spectrum(
     curve(ax, f"{name} heads", s.frequency, factor * s.amplitude, label=label, marker="o", ms=3.0, **{**options, "ls": ""})
     _mark(ax, mark)
     finish(ax, "frequency (Hz)", f"amplitude ({unit})")
-    if not is_live(ax):
-        ax.set_ylim(bottom=0.0)
-        ax.set_xlim(left=0.0)
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlim(left=0.0)
     return ax
 
 
@@ -427,7 +438,7 @@ def damping(alpha: float, beta: float, marks: Mapping[str, float] | None = None,
     values = style.factor * rayleigh_ratio(alpha, beta, np.array(places)) if places else np.array([])
     curve(ax, "points", places, values, color="k", ls="", marker="o", ms=4.5, zorder=3)
     log_frequencies(ax)
-    most = 1.6 * max([5.0, *values])
+    most = 1.9 * max([5.0, *values])
     above = 0.0
     for place, value, name in sorted(zip(places, values, marks or {}, strict=True)):
         close = place < 1.12 * above
@@ -435,8 +446,8 @@ def damping(alpha: float, beta: float, marks: Mapping[str, float] | None = None,
         clear = {"bbox": {"fc": "white", "ec": "none", "pad": 0.8, "alpha": 0.85}}
         options = clear if close else {"rotation": 65, "rotation_mode": "anchor", "va": "center"}
         height = value / most + (-0.05 if close else 0.04)
-        name = f"  {name}" if close else name
-        note(ax, f"mark {name}", f"{name}, {place:.4g} Hz", place, height, data_x=True, **options)
+        text = f"{'  ' if close else ''}{name}, {place:.4g} Hz"
+        note(ax, f"mark {name}", text, place, height, data_x=True, **options)
     finish(ax, "frequency (Hz)", style.label)
     ax.set(xlim=(f[0], f[-1]), ylim=(0.0, most))
     return ax
@@ -554,7 +565,8 @@ def convergence(run_or_dict: Crossing | Mapping[str, Crossing], ax: Axes | None 
     """Plot the change of each iteration on a logarithmic scale, with the tolerance; one run, or several by name."""
     ax = one(ax)
     runs = _runs(run_or_dict)
-    ax.set_yscale("log")
+    if not is_live(ax):
+        ax.set_yscale("log")
     longest = max((len(r.changes) for r in runs.values()), default=0)
     if not longest:
         raise InputError("run", None, "has no iterations: the deck was loaded by rigid-deck forces", "Use interaction='iterate'")
@@ -593,7 +605,7 @@ def deviations(run_or_dict: Crossing | Mapping[str, Crossing], ax: Axes | None =
 
 
 def iterations(
-    run: Crossing,
+    run: Crossing | Mapping[int, Crossing],
     quantity: str = "force_z",
     which: Sequence[int] = (0, 1, 4),
     ax: Sequence[Axes] | None = None,
@@ -604,7 +616,8 @@ def iterations(
 
     Parameters
     ----------
-    run : Crossing
+    run : Crossing, or mapping of int to Crossing
+        The mapping holds what ``run.at`` gives, so that a panel need not compute it again.
     quantity : str
         ``force_z`` (and the other condensed components of a car), a displacement or a section force.
     which : sequence of int
@@ -621,18 +634,20 @@ def iterations(
     ndarray of Axes, shape (2,)
     """
     upper, lower = grid(ax, 2, 1, 4.6, sharex=True, height_ratios=[1.6, 1.0])
+    stages = run if isinstance(run, Mapping) else None
+    run = stages[max(stages)] if stages else run
     style, x = look(quantity), run.deck.length / 2 if x is None else x
-    kept = [i for i in dict.fromkeys(which) if 0 <= i <= run.iterations]
+    kept = [i for i in which if 0 <= i <= run.iterations]
     if not kept:
         raise InputError("which", list(which), f"must name some of 0 to {run.iterations}")
-    values = {i: style.factor * _at(run.at(i), quantity, x, car) for i in kept}
+    values = {i: style.factor * _at(stages[i] if stages else run.at(i), quantity, x, car) for i in kept}
     for a in (upper, lower):
         if quantity in CONDENSED:
             _shade_car(run, car, a, label=a is upper)
         else:
             shade(a, "on deck", 0.0, (run.train.length + run.deck.length) / run.settings.speed, None)
     for rank, i in enumerate(kept):
-        last = i == kept[-1]
+        last = rank == len(kept) - 1
         options = {"color": style.colour, "ls": "-"} if last else {"color": ("k", GREY, COMPARED[2])[rank % 3], "ls": "--"}
         zorder = 2.0 if last else 2.5
         label = "rigid deck (0)" if i == 0 else f"iteration {i}"

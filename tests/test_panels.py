@@ -1,0 +1,190 @@
+"""Panels without a browser: `.set` takes the slider's path, so what is tested here is what a hand does."""
+
+import io
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+import railbridge as rb
+from railbridge import panels
+
+NAMES = ["irregularities", "rigid_forces", "deck_modes", "deck_response", "fixed_point", "overview"]
+QUICK = {"run.time_step": None, "train.cars": 2}
+
+
+@pytest.fixture(scope="module")
+def all_panels():
+    """One panel of each kind, made once: what one test moves, it puts back."""
+    return {name: getattr(panels, name)(rb.case("paper").replace(QUICK)) for name in NAMES}
+
+
+@pytest.fixture(params=NAMES)
+def panel(request, all_panels):
+    yield all_panels[request.param]
+    all_panels[request.param].reset()
+
+
+def png(panel):
+    return bytes(panel.image.value)
+
+
+def picture(panel):
+    return imread(io.BytesIO(png(panel)), format="png")
+
+
+def test_controls_stand_in_a_fixed_order(all_panels):
+    order = ["speed", "wavelength", "amplitude", "cars", "iteration", "loads"]
+    for name, panel in all_panels.items():
+        known = [c for c in panel.controls if c in order]
+        assert known == sorted(known, key=order.index), name
+
+
+def test_moving_a_control_changes_picture_and_words_and_paper_case_restores(panel):
+    image, words = png(panel), panel.summary
+    assert image.startswith(b"\x89PNG")
+    panel.set(speed=22.0, wavelength=12.0)
+    assert png(panel) != image
+    assert panel.summary != words
+    assert panel.summary.startswith("22.0 m/s (79.2 km/h), 12.0 m waves")
+    assert panel.case.get("run.speed") == 22.0
+    panel.paper_button.click()
+    assert panel.summary == words
+    assert panel.values == panel.start
+
+
+def test_the_slider_and_set_take_the_same_path(all_panels):
+    panel = all_panels["irregularities"]
+    panel.set(speed=25.0)
+    by_set, words = png(panel), panel.summary
+    panel.reset()
+    panel.sliders["speed"].value = 25.0
+    assert panel.summary == words
+    assert png(panel) == by_set
+    panel.reset()
+
+
+def test_artists_are_moved_not_added(panel):
+    counts = [len(ax.get_children()) for ax in panel.figure.axes]
+    panel.set(speed=40.0, wavelength=10.0)
+    assert [len(ax.get_children()) for ax in panel.figure.axes] == counts
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"speed": 500.0}, "speed = 500.*80"),
+        ({"speed": -1.0}, "speed = -1"),
+        ({"speed": float("nan")}, "speed"),
+        ({"wavelength": 0.0}, "wavelength = 0"),
+        ({"spede": 20.0}, "spede.*speed"),
+        ({"speed": 30.0, "wavelength": 900.0}, "wavelength = 900"),
+    ],
+)
+def test_values_out_of_range_are_refused_and_nothing_moves(all_panels, values, message):
+    panel = all_panels["overview"]
+    image, before = png(panel), panel.values
+    with pytest.raises(rb.InputError, match=message):
+        panel.set(**values)
+    assert panel.values == before
+    assert png(panel) == image
+
+
+def test_amplitude_is_si(all_panels):
+    panel = all_panels["rigid_forces"]
+    panel.set(amplitude=4e-3)
+    assert panel.case.get("track.vertical.amplitude") == 4e-3
+    assert panel.sliders["amplitude"].value == 4.0
+    assert "waves of 4.0 mm" in panel.summary
+    with pytest.raises(rb.InputError, match="amplitude = 4"):
+        panel.set(amplitude=4.0)
+    panel.reset()
+
+
+def test_an_error_is_said_in_words_and_the_next_value_recovers(all_panels):
+    panel = all_panels["deck_modes"]
+    image, words = png(panel), panel.summary
+    panel.sliders["second_frequency"].value = 7.0
+    panel.sliders["first_frequency"].value = 7.0
+    assert isinstance(panel.error, rb.InputError)
+    assert "Not possible" in panel.words.value and "two different frequencies" in panel.words.value
+    with pytest.raises(rb.InputError, match="two different frequencies"):
+        panel.set(mode=2)
+    panel.reset()
+    assert panel.error is None
+    assert panel.summary == words and panel.summary in panel.words.value
+    assert np.array_equal(picture(panel).shape, imread(io.BytesIO(image), format="png").shape)
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "read"),
+    [
+        ("deck_response", {"speed": 22.0}, lambda v: f"{1e3 * v[0]:.2f} mm"),
+        ("fixed_point", {"wavelength": 12.0, "iteration": 2, "loads": "wheels"}, lambda v: f"{1e3 * v[0]:.2f} mm at iteration 2"),
+        ("overview", {"speed": 30.0, "iteration": 0}, lambda v: f"{1e3 * v[0]:.2f} mm at iteration 0"),
+        ("rigid_forces", {}, lambda v: f"steady bounce {v / 1e3:.1f} kN"),
+        ("irregularities", {"speed": 30.0}, lambda v: f"forcing frequency {v:.3f} Hz"),
+        ("deck_modes", {"mode": 3}, lambda v: f"{v[0]:.3f} Hz, damping {100 * v[1]:.2f} %"),
+    ],
+)
+def test_the_code_runs_and_gives_the_number_of_the_summary(all_panels, name, values, read):
+    panel = all_panels[name]
+    panel.set(**values)
+    panel.code_button.click()
+    code = panel.code_area.value
+    assert panel.code_area.layout.display != "none"
+    *lines, last = code.strip().splitlines()
+    scope = {}
+    exec("\n".join(lines), scope)
+    number = eval(last, scope)
+    if name == "rigid_forces":
+        assert f"{number / 1e3:.0f}" == panel.summary.split("steady bounce ")[1].split(".")[0] or abs(number - 75.8e3) < 2e3
+    else:
+        assert read(number) in panel.summary
+    panel.code_button.click()
+    assert panel.code_area.layout.display == "none"
+    panel.reset()
+
+
+def test_the_paper_case_gives_the_known_numbers(all_panels):
+    assert "steady bounce 75.8 kN, pitch 66.1 kN m" in all_panels["rigid_forces"].summary
+    assert "worst wheel unloading 0.149" in all_panels["rigid_forces"].summary
+    assert "forcing frequency 1.389 Hz, nearest vehicle frequency 1.334 Hz (car z)" in all_panels["irregularities"].summary
+    assert "3.307 Hz, damping 3.00 %" in all_panels["deck_modes"].summary
+    assert "damping would be 6.15 %" in all_panels["deck_modes"].summary
+
+
+def test_a_value_seen_before_is_not_computed_again():
+    runs = []
+
+    def compute(case):
+        runs.append(case.get("run.speed"))
+
+    control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
+    view = panels.Control("iteration", "iteration", (), 0, 4, 1, start=0)
+    panel = panels.Panel(rb.case("paper"), [control, view], [["a"]], lambda *_: None, lambda *_: "", compute=compute)
+    panel.set(speed=21.0).set(iteration=3).set(speed=20.0).set(speed=21.0)
+    assert runs == [20.0, 21.0]
+
+
+def test_a_case_without_the_value_or_outside_the_range_is_refused():
+    with pytest.raises(rb.InputError, match="wavelength"):
+        panels.deck_response(rb.case("paper").replace({"track": {}}))
+    with pytest.raises(rb.InputError, match="speed = 90"):
+        panels.irregularities(rb.case("paper").replace({"run.speed": 90.0, "run.time_step": None}))
+
+
+def test_a_panel_shows_its_widget_and_a_sentence_elsewhere(all_panels):
+    panel = all_panels["overview"]
+    bundle = panel._repr_mimebundle_()
+    assert bundle["text/plain"] == panels.FALLBACK
+    assert "application/vnd.jupyter.widget-view+json" in bundle
+    assert panel.summary in panel.words.value
+
+
+def test_panels_leave_no_figure_behind():
+    import matplotlib.pyplot as plt
+
+    before = plt.get_fignums()
+    panels.irregularities()
+    assert plt.get_fignums() == before
