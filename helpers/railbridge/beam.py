@@ -5,7 +5,7 @@ The elements themselves, their modes and influence lines are in `mesh`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -95,9 +95,11 @@ class Beam:
             object.__setattr__(self, "bearings", held)
         for i, bearing in enumerate(self.bearings, start=1):
             here = f"{where}: bearing {i}"
-            inputs.number(f"{here}: x", bearing.x, least=0.0, most=self.length * (1 + 1e-12), unit="m")
+            slack = 1e-6 * self.length
+            inputs.number(f"{here}: x", bearing.x, least=-slack, most=self.length + slack, unit="m")
             for f in bearing.fixed:
                 inputs.choice(f"{here}: fixed", f, FIXITIES)
+        object.__setattr__(self, "bearings", tuple(self._on_line(b) for b in self.bearings))
         if self.elements is not None:
             inputs.integer(f"{where}: elements", self.elements, least=2, most=400)
         self._refuse_mechanism()
@@ -117,6 +119,12 @@ class Beam:
             self.torsional_stiffness,
         )
         return tuple(f for f, s in zip(FIELDS, stiffness, strict=True) if s is not None)
+
+    def _on_line(self, bearing: Bearing) -> Bearing:
+        """Move a bearing that misses the end of a span by rounding only onto it, so that both are one node."""
+        lines = np.concatenate([[0.0], np.cumsum(self.spans)])
+        nearest = float(lines[np.argmin(np.abs(lines - bearing.x))])
+        return replace(bearing, x=nearest) if abs(nearest - bearing.x) <= 1e-6 * self.length else bearing
 
     def _refuse_mechanism(self) -> None:
         """Check that the bearings hold every rigid-body motion the beam is free to make."""

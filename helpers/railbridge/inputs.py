@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import difflib
+import os
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -241,7 +242,9 @@ def quantity(field: str, value: Any, unit: str, si_unit: str, **limits: Any) -> 
 
 
 def data_root() -> Path:
-    """Return the folder of shipped data: inside an installed wheel, or ``data`` of the checkout."""
+    """Return the folder of shipped data: that of RAILBRIDGE_DATA if set, inside an installed wheel, or of the checkout."""
+    if os.environ.get("RAILBRIDGE_DATA"):
+        return Path(os.environ["RAILBRIDGE_DATA"])
     packaged = Path(__file__).parent / "data"
     return packaged if packaged.is_dir() else Path(__file__).parents[2] / "data"
 
