@@ -144,7 +144,7 @@ class Beam:
             if np.linalg.matrix_rank(np.array(rows) if rows else np.zeros((1, 1))) < len(motions[name]):
                 free = " or ".join(label for label, _ in motions[name])
                 raise InputError(
-                    f"deck {self.name}: bearings",
+                    f"{_where(self.name)}: bearings",
                     [(b.x, " ".join(b.fixed)) for b in self.bearings],
                     f"do not keep the deck from {free}, so it is a mechanism",
                     "Hold one more freedom, or one more bearing line",
@@ -237,7 +237,7 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
     inputs.keys(where, content, [*allowed, "elements", "name", "source", "note"], ["damping"])
     if ("length" in content) == ("spans" in content):
         raise InputError(f"{where}: length", content.get("length"), "give either length or spans")
-    spans = content.get("spans", [content.get("length")])
+    spans = content["spans"] if "spans" in content else [_length(where, content["length"])]
     if ("section" in content) == ("mass" in content):
         raise InputError(f"{where}: section", None, "give either a section or stiffnesses with mass, never both")
     if "section" in content:
@@ -267,6 +267,10 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
         inputs.number(f"{where}: tracks.{key}", y, least=None if half is None else -half, most=half, unit="m")
     damping = _damping(where, inputs.table(f"{where}: damping", content["damping"]))
     return beam.deck(content.get("modes", 20), damping, tracks, width)
+
+
+def _length(where: str, length: Any) -> float:
+    return inputs.number(f"{where}: length", length, above=0.0, unit="m")
 
 
 def _from_section(where: str, s: dict[str, Any]) -> dict[str, float]:

@@ -76,8 +76,8 @@ class Case:
         inputs.keys("output", output, ["points"])
         points = output.get("points", [deck.length / 2])
         points = inputs.numbers("output.points", points, least=0.0, most=deck.length, unit="m")
-        if len(points) == 0:
-            raise InputError("output.points", [], "must hold at least one place", "Leave it out for mid-length")
+        if not 1 <= len(points) <= 100:
+            raise InputError("output.points", points, "must hold 1 to 100 places", "Leave it out for mid-length")
         for name, value in [
             ("content", content),
             ("train", train),
@@ -175,13 +175,25 @@ def _beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
 def _deck(raw: Any) -> Deck:
     content = inputs.table("deck", raw)
     if "file" not in content:
-        return _cached_deck("deck", json.dumps(content, sort_keys=True))
-    inputs.keys("deck", content, ["modes", "damping"], ["file"])
-    path = inputs.data_file("decks", content["file"])
+        try:
+            return _cached_deck("deck", json.dumps(content, sort_keys=True))
+        except InputError as error:
+            # A deck file's errors name the file; those of a case name the key's path.
+            field = error.field.replace(": ", ".")
+            field = field if field.split(".")[0] == "deck" else f"deck.{field}"
+            raise InputError(field, error.value, error.allowed, error.remedy) from None
+    for key in content:
+        if key not in ("file", "modes", "damping"):
+            remedy = "Beside a file only modes and damping may stand; they replace its own"
+            raise InputError(f"deck.{key}", content[key], "cannot stand beside deck.file", remedy)
+    try:
+        path = inputs.data_file("decks", content["file"])
+    except InputError as error:
+        raise InputError("deck.file", error.value, error.allowed, error.remedy) from None
     if path.suffix != ".toml":
         raise InputError("deck.file", str(content["file"]), "deck files are TOML")
     table = {**inputs.read_toml(path), **{k: v for k, v in content.items() if k != "file"}}
-    return _cached_deck(path.stem, json.dumps(table, sort_keys=True))
+    return _cached_deck(path.stem, json.dumps(inputs.plain(path.name, table), sort_keys=True))
 
 
 @lru_cache(maxsize=16)
@@ -202,7 +214,9 @@ def _vehicle(name: Any) -> Vehicle:
 
 def _train(raw: Any) -> tuple[Train | AxleTrain, float | str]:
     if isinstance(raw, list):
-        raise InputError("train", raw, "several trains on one deck are not supported yet", "Give one [train]")
+        raise InputError(
+            "train", raw, "several trains on one deck are not supported: they feel each other through it", "Give one [train]"
+        )
     t = inputs.table("train", raw)
     with inputs.within("train"):
         offset = t.get("track", 0.0)

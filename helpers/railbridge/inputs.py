@@ -75,7 +75,8 @@ class InputError(ValueError):
 
     def __init__(self, field: str, value: Any, allowed: str, remedy: str = "") -> None:
         shown = "" if value is None else f" = {_short(value)}"
-        super().__init__(f"{field}{shown}: {allowed}." + (f" {remedy}." if remedy else ""))
+        advice = f" {remedy}" + "." * (not remedy.endswith("?")) if remedy else ""
+        super().__init__(f"{field}{shown}: {allowed}.{advice}")
         self.field, self.value, self.allowed, self.remedy = field, value, allowed, remedy
 
 

@@ -119,7 +119,8 @@ def _refuse_size(train: Train | AxleTrain, deck: Deck, speed: float, step: float
     samples = (lead_in + train.length + deck.length) / speed / step + tail / step
     values = samples * (4 * len(train.wheels) + 4 * len(deck.frequencies_hz))
     if values > LARGEST:
-        few = f"makes {samples:.3g} samples of {len(train.wheels)} wheels and {len(deck.frequencies_hz)} modes, too many to hold"
+        few = f"makes {samples:.3g} samples of {len(train.wheels)} wheels and {len(deck.frequencies_hz)} modes"
+        few += f", about {values * 8e-9:.3g} GB, too much to hold"
         raise InputError("run.time_step", step, few, "Use a larger step or speed, a shorter lead-in or tail, or fewer cars")
 
 

@@ -155,7 +155,7 @@ def histories(run: Crossing, points: Sequence[float]) -> Iterator[HistoryTable]:
     yield HistoryTable("iterations", ["t", *columns], [time, *values])
 
 
-def bytes_needed(train: Train | AxleTrain, deck: Deck, settings: Settings) -> float:
+def bytes_needed(train: Train | AxleTrain, deck: Deck, settings: Settings, points: int = 1) -> float:
     """Return about how much memory a run, its summary and its histories need, bytes."""
     s = settings
     advance = s.speed * s.time_step
@@ -173,10 +173,12 @@ def bytes_needed(train: Train | AxleTrain, deck: Deck, settings: Settings) -> fl
     state = 10.0 * len(deck.frequencies_hz) * samples + (0 if s.interaction == "rigid" else passes * samples)
     forces = 6.0 * wheels * samples + 20.0 * cars * samples
     iterated = (passes + 8.0) * 2 * wheels * on_deck
-    return 8.0 * (kept + working + state + forces + iterated + 5.0 * STATIONS * samples) + 1.2e8
+    return 8.0 * (kept + working + state + forces + iterated + (5.0 * STATIONS + 9.0 * points) * samples) + 1.2e8
 
 
-def refuse_too_large(train: Train | AxleTrain, deck: Deck, settings: Settings, limit: float = MEMORY_LIMIT) -> float:
+def refuse_too_large(
+    train: Train | AxleTrain, deck: Deck, settings: Settings, points: int = 1, limit: float = MEMORY_LIMIT
+) -> float:
     """Return the estimate of `bytes_needed`, or refuse what would need more than `limit`, before anything is computed.
 
     Raises
@@ -184,7 +186,7 @@ def refuse_too_large(train: Train | AxleTrain, deck: Deck, settings: Settings, l
     InputError
         Naming ``run.time_step`` and the estimate.
     """
-    needed = bytes_needed(train, deck, settings)
+    needed = bytes_needed(train, deck, settings, points)
     if needed > limit:
         raise InputError(
             "run.time_step",
