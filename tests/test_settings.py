@@ -1,0 +1,49 @@
+"""What is filled in when it is left open."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import railbridge as rb
+from railbridge.settings import check, default_time_step
+
+CAR = rb.vehicle("xia2000")
+DECK = rb.deck("viaduct36")
+
+
+def test_defaults():
+    s = check(rb.Train(CAR), DECK, rb.Track(), speed=20.0)
+    assert (s.lead_in, s.loads, s.interaction, s.tolerance, s.track_offset) == (150.0, "wheels", "iterate", 1e-8, 0.0)
+    assert s.time_step == 1e-3
+    assert check(rb.Train(CAR), DECK, rb.Track(), speed=20.0, track_offset="right").track_offset == -2.4
+
+
+@given(speed=st.floats(1.0, 120.0), spacing=st.floats(22.0, 40.0), wavelength=st.floats(0.05, 50.0), cars=st.integers(2, 5))
+def test_the_chosen_step_resolves_waves_and_divides_the_time_between_cars(speed, spacing, wavelength, cars):
+    train = rb.Train(CAR, cars=cars, car_spacing=spacing)
+    step = default_time_step(train, rb.Track(rb.Harmonic(1e-3, wavelength=wavelength)), speed)
+    assert step <= 1e-3 * (1 + 1e-12)
+    assert speed * step <= wavelength / 20 * (1 + 1e-12)
+    steps = spacing / speed / step
+    assert steps == pytest.approx(round(steps), rel=1e-9)
+
+
+@pytest.mark.parametrize("cars", [1, 3])
+def test_a_notch_is_resolved(cars):
+    notch = rb.Notch(((1, 1),), circumference=2.8, offset=0.0, depth=1e-3, length=0.05)
+    step = default_time_step(rb.Train(CAR, cars=cars, notches=(notch,)), rb.Track(), 20.0)
+    assert 20.0 * step <= 0.05 / 20 * (1 + 1e-12)
+    # Against a step four times finer the force on the notched wheel has settled.
+    train, track = rb.Train(CAR, notches=(notch,)), rb.Track()
+    coarse = train.rigid_forces(track, 20.0, step, int(0.02 / step), 0.0)[0][1]
+    fine = train.rigid_forces(track, 20.0, step / 4, int(0.02 / step * 4), 0.0)[0][1][::4]
+    n = min(len(coarse), len(fine))
+    assert coarse[:n] == pytest.approx(fine[:n], abs=0.03 * np.abs(fine).max())
+
+
+def test_a_given_step_may_just_do():
+    track = rb.Track(rb.Harmonic(1e-3, wavelength=2.0))
+    assert check(rb.Train(CAR), DECK, track, speed=20.0, time_step=0.01).time_step == 0.01
+    with pytest.raises(rb.InputError, match="fewer than 10 samples in 2 m"):
+        check(rb.Train(CAR), DECK, track, speed=20.0, time_step=0.0101)
