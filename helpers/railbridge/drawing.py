@@ -99,6 +99,9 @@ def live(figure: Figure) -> None:
     """Let every axes of a figure move its artists from now on, and keep its limits while the data fill them well."""
     for ax in figure.axes:
         ax.set_gid("live")
+        for axis, scale in (("x", ax.get_xscale()), ("y", ax.get_yscale())):
+            if scale == "linear" and getattr(ax, f"get_{axis}ticks")().size:
+                ax.locator_params(axis=axis, nbins=6)  # text is what takes time to draw
 
 
 def is_live(ax: Axes) -> bool:

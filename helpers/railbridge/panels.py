@@ -93,13 +93,13 @@ class Control:
     def widget(self, value: Any, continuous: bool) -> widgets.Widget:
         """Make the slider or list, showing a value given in SI units."""
         if self.choices:
-            return widgets.Dropdown(options=self.choices, value=value, description=self.label, style={"description_width": "9em"})
+            return widgets.Dropdown(options=self.choices, value=value, description=self.label, style={"description_width": "8em"})
         whole = isinstance(self.step, int)
         low, high, step, value = (v if whole else round(v * self.factor, 9) for v in (self.low, self.high, self.step, value))
         options = {"readout_format": "d" if whole else ".1f" if step >= 0.1 else ".3f", "continuous_update": continuous}
         make = widgets.IntSlider if whole else widgets.FloatSlider
-        layout = widgets.Layout(width="24em")
-        style = {"description_width": "9em"}
+        layout = widgets.Layout(width="27em")
+        style = {"description_width": "8em"}
         return make(value, min=low, max=high, step=step, description=self.label, layout=layout, style=style, **options)
 
     def value(self, shown: Any) -> Any:

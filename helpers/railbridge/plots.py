@@ -287,8 +287,7 @@ def car_forces(
             ends = [run.time[0], run.time[-1], np.nan, run.time[0], run.time[-1]]
             lines = [middle + level] * 2 + [np.nan] + [middle - level] * 2
             curve(ax, "steady", ends, lines, label="steady amplitude", color="k", ls=":", lw=1.2)
-        word = style.words if style.words.count(" ") == 0 else style.words.replace(" ", "\n", 1)
-        finish(ax, TIME if ax is axes[-1] else "", f"{word}\n({style.unit})", legend=ax is axes[0])
+        finish(ax, TIME if ax is axes[-1] else "", style.label, legend=ax is axes[0])
     axes[0].figure.align_ylabels(axes)
     return axes
 
@@ -655,6 +654,7 @@ def iterations(
         if not last or len(kept) == 1:
             curve(lower, f"rank {rank}", run.time, values[i] - values[kept[-1]], **options)
     finish(upper, "", style.label)
+    upper.tick_params(labelbottom=False)
     finish(lower, TIME, f"minus iteration {kept[-1]} ({style.unit})")
     return np.array([upper, lower], dtype=object)
 
