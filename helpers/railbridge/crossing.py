@@ -123,7 +123,7 @@ class Crossing:
             rows.append(total.reshape(-1, 2, total.shape[1]))
         return np.concatenate(rows)
 
-    @property
+    @cached_property
     def _felt(self) -> DeckState:
         """The deck's motion that the forces shown answer to: that of the pass before, or, solved directly, their own."""
         return self.state if self.settings.interaction == "direct" else self.at(self.shown - 1).state
