@@ -117,6 +117,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = _parser().parse_args(arguments)
     try:
         with np.errstate(all="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("once")
             warnings.simplefilter("ignore", RuntimeWarning)
             warnings.showwarning = lambda message, *_, **__: _say(f"warning: {message}")
             return given.command(given)

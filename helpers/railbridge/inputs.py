@@ -93,7 +93,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     """Return ``Did you mean 'x'? `` for the nearest known word, or the list of all known words."""
     known = sorted(known)
     near = difflib.get_close_matches(str(word), known, n=1, cutoff=0.5)
-    return f"Did you mean '{near[0]}'?" if near else "Known: " + ", ".join(known)
+    return f"Did you mean '{near[0]}'?" if near else "Known: " + (", ".join(known) or "none")
 
 
 def number(
