@@ -519,3 +519,23 @@ def test_random_arguments_never_give_a_traceback(tmp_path_factory, arguments):
         assert cli.main(arguments) in (0, 2)
     except SystemExit as stop:
         assert stop.code == 2
+
+
+# ---- the page that describes it ------------------------------------------------------------------------------------------
+
+
+def test_the_page_on_cases_names_every_key_and_its_example_runs():
+    page = (Path(__file__).resolve().parents[1] / "docs" / "case.md").read_text(encoding="utf-8")
+    words = set(re.findall(r"\w+", " ".join(re.findall(r"`([^`\n]+)`", page))))
+    wanted = {p for d in SCHEMA["definitions"].values() for p in d.get("properties", {})} | set(SCHEMA["properties"])
+    summary = rb.case("paper").replace({"train.cars": 1, "run.time_step": 4e-3, "run.interaction": "rigid"}).summary()
+
+    def names(value):
+        if isinstance(value, dict):
+            return set(value).union(*map(names, value.values()))
+        return set().union(*map(names, value)) if isinstance(value, list) else set()
+
+    assert (wanted | names(summary)) - words - {"count", "t"} == set()
+    example = tomllib.loads(re.search(r"```toml\n(.*?)```", page, re.DOTALL).group(1))
+    VALID.validate(example)
+    rb.Case(example)
