@@ -40,6 +40,7 @@ PAGES = {
     "00": Page((GOALS, EXPLORE, FOUND, REFERENCES), (200, 1200), (5, 80), (), ("You need", "Time")),
     "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3000), (20, 200), (), ("You need", "Time")),
 }
+COURSE = ("00", "01", "02", "03", "04", "05", "06", "08")
 CELL_LINES = 15
 FIGURE_WORDS = 12
 FILE_BYTES = 400_000
@@ -305,6 +306,11 @@ def test_notebook_obeys_the_rules(path):
     notebook = nbformat.reads(text, as_version=4)
     assert '"application/vnd.jupyter.widget' not in text
     assert broken_rules(notebook, path) == []
+
+
+def test_the_course_is_complete():
+    numbers = [path.name[:2] for path in NUMBERED]
+    assert [n for n in COURSE if n not in numbers] == []
 
 
 def test_numbers_are_used_once():
