@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -215,24 +216,33 @@ class Stations:
                 total[self.pairs[0][pairs], window] += part
         return total
 
-    def motion(self, q: np.ndarray, velocity: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Return what each station meets: y, z, roll of the deck and their total time derivatives, each shape (3, count)."""
-        # The rate needs (V slope, value) times (q, q'): stacked, both are one product.
-        states = [np.concatenate([q[m], velocity[m]]) for m in (self.pairs[0][self._component(c)] for c in range(3))]
-        stacked = [
+    @cached_property
+    def _stacked(self) -> list[list[np.ndarray]]:
+        """For each table and component (V slope, value): times (q, q') the rate is then one product."""
+        return [
             [np.concatenate([self.speed * slopes[p], values[p]]) for p in map(self._component, range(3))]
             for values, slopes in self.tables
         ]
+
+    def motion(self, q: np.ndarray, velocity: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Return what each station meets: y, z, roll of the deck and their total time derivatives, each shape (3, count)."""
+        states = [np.concatenate([q[m], velocity[m]]) for m in (self.pairs[0][self._component(c)] for c in range(3))]
         result = []
         for start, count, which in zip(self.starts, self.counts, self.which, strict=True):
             moved, rate = np.empty((3, count)), np.empty((3, count))
-            for c, (state, table) in enumerate(zip(states, stacked[which], strict=True)):
+            for c, (state, table) in enumerate(zip(states, self._stacked[which], strict=True)):
                 half = len(state) // 2
                 window = state[:, start : start + count]
                 np.einsum("pt,pt->t", table[half:, :count], window[:half], out=moved[c])
                 np.einsum("pt,pt->t", table[:, :count], window, out=rate[c])
             result.append((moved, rate))
         return result
+
+
+@lru_cache(maxsize=1000)
+def _sampled_mode(omega: float, ratio: float, time_step: float) -> SampledResponse:
+    """Prepare a mode once for all crossings at one step."""
+    return oscillator(omega, ratio).sampled(time_step)
 
 
 @dataclass(frozen=True)
@@ -320,7 +330,7 @@ class Deck:
     def sampled(self, time_step: float) -> list[SampledResponse]:
         """Prepare every mode for one time step (s); each takes its modal force and gives coordinate and velocity."""
         omega = 2 * np.pi * self.frequencies_hz
-        return [oscillator(w, z).sampled(time_step) for w, z in zip(omega, self.damping_ratios, strict=True)]
+        return [_sampled_mode(w, z, time_step) for w, z in zip(omega.tolist(), self.damping_ratios.tolist(), strict=True)]
 
     def acceleration(self, q: np.ndarray, velocity: np.ndarray, modal_force: np.ndarray) -> np.ndarray:
         """Return modal accelerations from the equation of motion."""

@@ -215,7 +215,7 @@ def prepare(train: Train | AxleTrain, deck: Deck, track: Track, s: Settings) -> 
         load_delays=load_delays,
         load_matrices=matrices,
         modes=deck.sampled(s.time_step),
-        vehicles=[v.system().sampled(s.time_step) for v, _ in train.groups()],
+        vehicles=[v.sampled(s.time_step) for v, _ in train.groups()],
     )
 
 

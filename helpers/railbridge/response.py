@@ -146,8 +146,11 @@ class SampledResponse:
         single = self.left.shape[1] == 1
         if not single:
             np.matmul(np.vstack([self.left.real, self.left.imag]), u.reshape(len(u), -1), out=parts.reshape(2 * count, -1))
+        w = u[0] if single else np.empty(batch, dtype=complex)
         for m in range(count):
-            w, gain = (u[0], self.left[m, 0]) if single else (parts[0, m] + 1j * parts[1, m], 1.0)
+            gain = self.left[m, 0] if single else 1.0
+            if not single:
+                w.real, w.imag = parts[0, m], parts[1, m]
             # A filter that starts from nothing would put b1 w[0] into the first sample.
             initial = start[m] - gain * b1[m] * w[..., :1]
             z = lfilter([gain * b1[m], gain * b0[m]], [1.0, -a[m]], w, axis=-1, zi=initial)[0]

@@ -182,7 +182,7 @@ class Train:
         """
 
         def forces(v: Vehicle, u: np.ndarray) -> np.ndarray:
-            return v.system().sampled(time_step)(u) - u if u.any() else u
+            return v.sampled(time_step)(u) - u if u.any() else u
 
         return self._rigid(forces, track, speed, time_step, samples, lead_in, excitation)
 

@@ -22,7 +22,7 @@ from scipy.linalg import eigh
 
 from . import inputs
 from .inputs import G, InputError
-from .response import LinearSystem, second_order_system
+from .response import LinearSystem, SampledResponse, second_order_system
 
 __all__ = ["FREEDOMS", "Body", "Contact", "Modes", "Spring", "Vehicle", "planar_car", "sprung_mass", "two_bogie_car", "vehicle"]
 
@@ -261,6 +261,16 @@ class Vehicle:
         rows, k, c = self._contact_rows()
         output = np.hstack([k[:, None] * rows, c[:, None] * rows])
         return second_order_system(self.mass_matrix, self.damping_matrix, self.stiffness_matrix, rows.T, output)
+
+    def sampled(self, time_step: float) -> SampledResponse:
+        """Return `system` ready to run at one time step (s), made once for each step."""
+        if time_step not in self._ready:
+            self._ready[time_step] = self.system().sampled(time_step)
+        return self._ready[time_step]
+
+    @cached_property
+    def _ready(self) -> dict[float, SampledResponse]:
+        return {}
 
     @property
     def body(self) -> Body:
