@@ -1,0 +1,123 @@
+"""Time the paper's case, how it grows with the number of cars, and a plain integration of the same equations beside it.
+
+Everything is printed as a ratio within this one run, since seconds belong to the machine. `python benchmarks/bench.py`.
+"""
+
+import os
+import subprocess
+import sys
+import time
+
+os.environ["OMP_NUM_THREADS"] = "1"  # the matrices are small; before NumPy is loaded
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+import railbridge as rb
+
+MEMORY = """
+import os, resource, sys
+os.environ["OMP_NUM_THREADS"] = "1"
+import railbridge as rb
+run = rb.case("paper").replace({"run.iterations": 4}).run()
+run.displacement(18.0), run.section_forces(18.0), run.reactions(), run.wheel_forces
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024.0 if sys.platform != "darwin" else 1024.0**2))
+"""
+IMPORT = """
+import sys, time
+start = time.perf_counter()
+import railbridge
+took = time.perf_counter() - start
+print(took, *[m for m in ("matplotlib", "pandas", "ipywidgets", "IPython") if m in sys.modules])
+"""
+
+NEEDED = """
+import time
+start = time.perf_counter()
+import numpy, scipy.linalg, scipy.signal, scipy.sparse.csgraph
+print(time.perf_counter() - start)
+"""
+
+
+def best(run, repeats=7):
+    """Return the shortest processor time of several runs, s: other programs on the machine count least in it."""
+    times = []
+    for _ in range(repeats):
+        start = time.process_time()
+        run()
+        times.append(time.process_time() - start)
+    return min(times)
+
+
+def fresh(code, repeats=1):
+    """Run lines in a new Python; return its printed words, those of the smallest first number if repeated."""
+    answers = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True) for _ in range(repeats)]
+    return min((a.stdout.split() for a in answers), key=lambda words: float(words[0]))
+
+
+def solve(case):
+    """Run a case up to the deck's motion under the last forces."""
+    return case.run().state
+
+
+def coupled(case):
+    """Return a function that integrates one car on the deck as one system of equations, as a textbook would write it."""
+    car, deck, s = case.train.vehicle, case.deck, case.run().settings
+    m, c, k = car.mass_matrix, car.damping_matrix, car.stiffness_matrix
+    rows, kc, cc = car._contact_rows()
+    inverse, n, modes = np.linalg.inv(m), len(m), len(deck.frequencies_hz)
+    omega, y = 2 * np.pi * deck.frequencies_hz, np.array([w.y for w in case.train.wheels]) + s.track_offset
+    delays, static = np.array([w.delay for w in case.train.wheels]), np.array([w.static_load for w in case.train.wheels])
+    rails = [(case.track.rail("lateral", w.side), case.track.rail("vertical", w.side)) for w in case.train.wheels]
+    stop = (deck.length + case.train.length) / s.speed
+
+    def rate(t, state):
+        x, v, q, dq = np.split(state, [n, 2 * n, 2 * n + modes])
+        place = s.speed * t - delays
+        on = ((place >= 0) & (place <= deck.length))[:, None]
+        value, slope = deck.shapes(place) * on[..., None], deck.shapes(place, 1) * on[..., None]
+        shape = np.stack([value[:, :, 0], value[:, :, 1] + y[:, None] * value[:, :, 2]], axis=1).reshape(-1, modes)
+        tilt = np.stack([slope[:, :, 0], slope[:, :, 1] + y[:, None] * slope[:, :, 2]], axis=1).reshape(-1, modes)
+        r = np.array([[i.value(p) for i in pair] for pair, p in zip(rails, place, strict=True)]).ravel()
+        dr = np.array([[i.slope(p) for i in pair] for pair, p in zip(rails, place, strict=True)]).ravel() * s.speed
+        r, dr = r + shape @ q, dr + shape @ dq + s.speed * (tilt @ q)
+        force = kc * (rows @ x - r) + cc * (rows @ v - dr)
+        load = force.copy()
+        load[1::2] -= static
+        acceleration = inverse @ (rows.T @ (kc * r + cc * dr) - c @ v - k @ x)
+        return np.concatenate([v, acceleration, dq, shape.T @ load - 2 * deck.damping_ratios * omega * dq - omega**2 * q])
+
+    start = np.zeros(2 * (n + modes))
+    return lambda: solve_ivp(rate, (0.0, stop), start, method="RK45", rtol=1e-4, atol=1e-8, max_step=5e-3)
+
+
+def main():
+    paper = rb.case("paper").replace({"run.iterations": 4})
+    solve(paper)
+    unit = best(lambda: solve(paper), 15)
+    print(f"paper's case: 8 cars, 5 deck-and-train solves, 1 ms       1.00   ({unit:.3f} s of processor time)")
+    print("\ncars   time / paper's case   time per car / that of one car   (condensed, the same)")
+    first = None
+    for cars in (1, 2, 4, 8, 16):
+        took = best(lambda case=paper.replace({"train.cars": cars}): solve(case))
+        first = first or took
+        print(f"{cars:4d}   {took / unit:19.2f}   {took / cars / first:29.2f}")
+    print("\nloads, 8 cars     passes of the iteration alike")
+    for loads in ("condensed", "bogies", "wheels"):
+        print(f"  {loads:12s} {best(lambda case=paper.replace({'run.loads': loads}): solve(case)) / unit:6.2f}")
+    one = rb.case("paper").replace({"train.cars": 1, "run.loads": "wheels", "run.lead_in": 0.0, "run.tail": 0.0})
+    converged, plain = best(lambda: solve(one)), best(coupled(one), 1)
+    print(f"\none car, wheels, to 1e-8: suite                            {converged / unit:.2f}")
+    print(
+        f"the same by scipy.integrate.solve_ivp (RK45, 1e-4)       {plain / unit:.1f}   {plain / converged:.0f} times the suite's"
+    )
+    print(f"\npeak memory of the paper's case, with its results: {float(fresh(MEMORY)[0]):.0f} MB (to stay below 400)")
+    took, *loaded = fresh(IMPORT, 3)
+    print(
+        f"import railbridge: {float(took) / float(fresh(NEEDED, 3)[0]):.2f} times the import of what it needs of numpy and scipy"
+    )
+    print(f"plots, tables and widgets it loads: {', '.join(loaded) or 'none'}")
+
+
+if __name__ == "__main__":
+    main()
