@@ -1,5 +1,6 @@
 """The summary says what the crossing holds, with place and time, and statics stands beside it."""
 
+import dataclasses
 import json
 import math
 
@@ -99,6 +100,31 @@ def test_static_value_is_statics(found, plain_deck):
     # The reaction peaks as the second axle enters, or as the first leaves: at the far end the heavy one alone counts fully.
     near, far = (r["force_z"]["static"] for r in summary["reactions"])
     assert [near, far] == pytest.approx([1e5 + 2e5 * 17 / 20, 2e5 + 1e5 * 17 / 20], rel=1e-6)
+
+
+def test_continuous_deck_and_places_where_nothing_can_be(plain_deck):
+    case = plain_deck.replace({"deck.length": None, "deck.spans": [20.0, 20.0]} | {"output.points": [8.0, 0.0, 40.0]})
+    summary = case.summary()
+    # Two equal spans: the middle bearing carries more than an end, and the moment at an end is nothing.
+    near, middle, far = (r["force_z"]["static"] for r in summary["reactions"])
+    assert middle > max(near, far) and near == pytest.approx(262.67e3, rel=1e-4)
+    for end in summary["points"][1:]:
+        assert (end["moment_vertical"]["static"], end["moment_vertical"]["dynamic_factor"]) == (0.0, None)
+        assert end["shear_vertical"]["dynamic_factor"] == pytest.approx(1.0, abs=0.1)
+    assert summary["points"][0]["moment_vertical"]["static"] < 0.0
+
+
+def test_a_deck_of_modes_only_has_no_section_forces():
+    whole = rb.deck("viaduct36")
+    bare = dataclasses.replace(whole, recovery=None, supports=())
+    train = rb.Train(rb.vehicle("xia2000_planar"))
+    options = {"speed": 20.0, "time_step": 4e-3, "interaction": "rigid", "track_offset": "left"}
+    found = [summarize(rb.cross(train, deck, **options), [18.0]) for deck in (whole, bare)]
+    statics = [[f["points"][0][n]["static"] for n in ("displacement_z", "rotation_x")] for f in found]
+    assert statics[1] == pytest.approx(statics[0], rel=5e-3)
+    assert found[1]["points"][0]["moment_vertical"] is None
+    assert found[1]["reactions"] == []
+    assert found[1]["self_weight"]["displacement_z"] == [None]
 
 
 def test_a_slow_train_gives_a_dynamic_factor_of_one(plain_deck):

@@ -23,6 +23,7 @@ from .crossing import Crossing, NotConvergedError, cross
 from .deck import Deck, History, rayleigh, rayleigh_ratio
 from .inputs import InputError
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
+from .summary import summarize
 from .track import Harmonic, Level, Notch, Rails, Table, Track
 from .train import AxleTrain, Train, steady_forces
 from .vehicle import Body, Spring, Vehicle, planar_car, sprung_mass, vehicle
@@ -33,7 +34,7 @@ __all__ = [
     "AxleTrain", "Beam", "Bearing", "Body", "Case", "Crossing", "Deck", "Harmonic", "History", "InputError", "Level",
     "NotConvergedError", "Notch", "Rails", "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum",
     "case", "compared", "cross", "deck", "deck_from_table", "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio",
-    "sprung_mass", "steady_forces", "vehicle",
+    "sprung_mass", "steady_forces", "summarize", "vehicle",
 ]  # fmt: skip
 
 _LAZY = ("panels", "paper", "plots")

@@ -252,14 +252,17 @@ def _at_point(run: Crossing, x: float) -> dict[str, np.ndarray]:
 
 
 def _lines(run: Crossing, x: float) -> dict[str, Line | None]:
-    """Return the influence line of every quantity at x that has one."""
+    """Return the influence line of every quantity at x that has one; None where it is zero, as of the moment at an end."""
     deck, recovery = run.deck, run.deck.recovery
+    grid = np.linspace(0.0, deck.length, STATIONS)
     found: dict[str, Line | None] = {}
     for name in QUANTITIES:
         if name.startswith("acceleration"):
             continue
         if recovery is not None:
-            found[name] = recovery.section(name, x)
+            line, usual = recovery.section(name, x), recovery.section(name, 0.4 * deck.length)
+            zero = line is None or np.abs(line.influence(grid)).max() < 1e-8 * np.abs(usual.influence(grid)).max()
+            found[name] = None if zero else line
         elif name in ("displacement_y", "displacement_z", "rotation_x"):
             # Only modes are known: the flexibility they have together.
             component = ("displacement_y", "displacement_z", "rotation_x").index(name)
