@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import railbridge as rb
-from railbridge import drawing, plots
+from railbridge import plots
+from railbridge.plots import drawing
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,7 @@
 """Run the notebook tests on data whose every number is off by one part in ten thousand million.
 
-    python tools/perturb.py [arguments for pytest]
+    python tools/perturb.py                              all notebooks
+    python tools/perturb.py notebooks/03_x.ipynb -q ...  these arguments for pytest instead
 
 A printed figure that changes with the eleventh digit of its input is printed with too many digits, or hangs on a comparison
 of two numbers that happen to be equal. The copy of `data/` is temporary; RAILBRIDGE_DATA points the package to it.
@@ -56,8 +57,8 @@ def main(arguments):
         data = Path(folder) / "data"
         perturb(ROOT / "data", data)
         environment = {**os.environ, "RAILBRIDGE_DATA": str(data)}
-        command = [sys.executable, "-m", "pytest", "notebooks", *(arguments or ["-q", "-n", "2", "--dist", "loadscope"])]
-        sys.exit(subprocess.run(command, cwd=ROOT, env=environment).returncode)
+        chosen = arguments or ["notebooks", "-q", "-n", "2", "--dist", "loadscope"]
+        sys.exit(subprocess.run([sys.executable, "-m", "pytest", *chosen], cwd=ROOT, env=environment).returncode)
 
 
 if __name__ == "__main__":

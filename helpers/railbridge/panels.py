@@ -28,8 +28,8 @@ from .case import Case
 from .case import case as load_case
 from .crossing import Crossing
 from .deck import rayleigh, rayleigh_ratio
-from .drawing import WIDTH, live
 from .inputs import InputError
+from .plots.drawing import WIDTH, live
 from .train import CONDENSED, steady_forces
 
 __all__ = ["Control", "Panel", "deck_modes", "deck_response", "fixed_point", "irregularities", "overview", "rigid_forces"]

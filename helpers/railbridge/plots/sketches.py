@@ -13,11 +13,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 
-from . import inputs
-from .deck import Deck
+from .. import inputs
+from ..deck import Deck
+from ..train import AxleTrain, Train
+from ..vehicle import FREEDOMS, Modes, Spring, Vehicle
 from .drawing import GREY, LOOKS, PALE, WIDTH, curve, finish, note, one
-from .train import AxleTrain, Train
-from .vehicle import FREEDOMS, Modes, Spring, Vehicle
 
 __all__ = ["train_on_deck", "vehicle", "vehicle_mode"]
 

@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from .inputs import choice
+from ..inputs import choice
 
 __all__ = ["COMPARED", "GREY", "LOOKS", "Look", "curve", "finish", "grid", "live", "mark", "note", "one", "shade"]
 
@@ -31,6 +31,9 @@ _VERTICAL, _LATERAL, _ROLL = "-", "--", "-."
 
 COMPARED = ("#0072B2", "#D55E00", "#009E73", "#882255", "#B07800", "#000000")
 """Colours of runs that stand side by side in one axes."""
+
+TIME = "time since the first axle entered (s)"
+ALONG = "x from the bridge entrance (m)"
 
 
 class Look(NamedTuple):
