@@ -39,12 +39,12 @@ print(time.perf_counter() - start)
 """
 
 
-def best(run, repeats=7):
+def best(run, *arguments, repeats=7):
     """Return the shortest processor time of several runs, s: other programs on the machine count least in it."""
     times = []
     for _ in range(repeats):
         start = time.process_time()
-        run()
+        run(*arguments)
         times.append(time.process_time() - start)
     return min(times)
 
@@ -94,19 +94,19 @@ def coupled(case):
 def main():
     paper = rb.case("paper").replace({"run.iterations": 4})
     solve(paper)
-    unit = best(lambda: solve(paper), 15)
+    unit = best(solve, paper, repeats=15)
     print(f"paper's case: 8 cars, 5 deck-and-train solves, 1 ms       1.00   ({unit:.3f} s of processor time)")
     print("\ncars   time / paper's case   time per car / that of one car   (condensed, the same)")
     first = None
     for cars in (1, 2, 4, 8, 16):
-        took = best(lambda case=paper.replace({"train.cars": cars}): solve(case))
+        took = best(solve, paper.replace({"train.cars": cars}))
         first = first or took
         print(f"{cars:4d}   {took / unit:19.2f}   {took / cars / first:29.2f}")
     print("\nloads, 8 cars     passes of the iteration alike")
     for loads in ("condensed", "bogies", "wheels"):
-        print(f"  {loads:12s} {best(lambda case=paper.replace({'run.loads': loads}): solve(case)) / unit:6.2f}")
+        print(f"  {loads:12s} {best(solve, paper.replace({'run.loads': loads})) / unit:6.2f}")
     one = rb.case("paper").replace({"train.cars": 1, "run.loads": "wheels", "run.lead_in": 0.0, "run.tail": 0.0})
-    converged, plain = best(lambda: solve(one)), best(coupled(one), 1)
+    converged, plain = best(solve, one), best(coupled(one), repeats=1)
     print(f"\none car, wheels, to 1e-8: suite                            {converged / unit:.2f}")
     print(
         f"the same by scipy.integrate.solve_ivp (RK45, 1e-4)       {plain / unit:.1f}   {plain / converged:.0f} times the suite's"
