@@ -114,3 +114,31 @@ def test_it_stops_below_the_tolerance_twice_in_a_row():
     assert run.converged
     assert run.changes[-1] < 1e-5 and run.changes[-2] < 1e-5 and run.changes[-3] >= 1e-5
     assert iterate(run.coupling).changes == run.changes
+
+
+def test_every_wheel_feels_the_deck_at_its_own_place():
+    """v at the axis, w + y theta under the wheel, each with its total derivative; springs and dampers of Table 1 by hand."""
+    rng = np.random.default_rng(2)
+    train, deck, offset, speed = rb.Train(rb.vehicle("xia2000"), cars=2), rb.deck("viaduct36"), 2.4, 25.0
+    s = check(train, deck, rb.Track(), speed=speed, time_step=2e-3, track_offset=offset)
+    coupling = prepare(train, deck, rb.Track(), s)
+    state = coupling.deck_state(coupling.station_loads(coupling.at_rest()))
+    q, velocity = (rng.normal(size=state.q.shape) for _ in range(2))
+    u = coupling.support_input(type(state)(q, velocity, state.modal_force), [0, 1])
+    for car in (0, 1):
+        window = coupling.windows[car]
+        for wheel in (w for w in train.wheels if w.car == car + 1):
+            place = speed * coupling.time[window] - wheel.delay
+            on = (place > 1e-6) & (place < deck.length - 1e-6)
+            met, slope = deck.shapes(place[on]), deck.shapes(place[on], 1)
+            here, now = q[:, window][:, on], velocity[:, window][:, on]
+            moved = np.einsum("tmc,mt->ct", met, here)
+            rate = np.einsum("tmc,mt->ct", met, now) + speed * np.einsum("tmc,mt->ct", slope, here)
+            y = offset + wheel.y
+            i = 2 * (wheel.number - 1)
+            ours = u[i : i + 2, car, : len(place)][:, on]
+            lateral = 20e6 * moved[0] + 15e3 * rate[0]
+            vertical = 2976e3 * (moved[1] + y * moved[2]) + 15e3 * (rate[1] + y * rate[2])
+            assert ours[0] == pytest.approx(lateral, abs=1e-9 * np.abs(lateral).max())
+            assert ours[1] == pytest.approx(vertical, abs=1e-9 * np.abs(vertical).max())
+            assert not u[i : i + 2, car, : len(place)][:, (place < -1e-6) | (place > deck.length + 1e-6)].any()
