@@ -129,7 +129,8 @@ def test_every_wheel_feels_the_deck_at_its_own_place():
         window = coupling.windows[car]
         for wheel in (w for w in train.wheels if w.car == car + 1):
             place = speed * coupling.time[window] - wheel.delay
-            on = (place > 1e-6) & (place < deck.length - 1e-6)
+            on = np.min(np.abs(place[:, None] - deck.shapes.edges), axis=1) > 1e-6  # the slope of twist has corners there
+            on &= (place > 0.0) & (place < deck.length)
             met, slope = deck.shapes(place[on]), deck.shapes(place[on], 1)
             here, now = q[:, window][:, on], velocity[:, window][:, on]
             moved = np.einsum("tmc,mt->ct", met, here)
