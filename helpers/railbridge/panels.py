@@ -499,7 +499,9 @@ def _said(stages: Mapping[int, Crossing], case: Case, values: Mapping[str, Any])
     if i == 0:
         change = "rigid-deck forces"
     else:
-        change = f"Eq. 3 {last.deviations.from_rigid[i - 1]:+.3f} % from the rigid deck, change {last.changes[i - 1]:.1e}"
+        deviation = last.deviations.from_rigid[i - 1]
+        measure = f"Eq. 3 {deviation:+.3f} % from the rigid deck" if np.isfinite(deviation) else "no waves to measure Eq. 3 against"
+        change = f"{measure}, change {last.changes[i - 1]:.1e}"
     passes = f"iteration {i} of {last.iterations} ({last.settings.loads} loads, fixed number of iterations)"
     return _begin(case, values) + f"at x = {x:g} m {w:.2f} mm at {passes}, {first:.2f} mm at iteration 0; {change}."
 

@@ -68,9 +68,9 @@ def amplitude_spectrum(signal: np.ndarray, time_step: float, bins: int = BINS, u
 def deviation_percent(spectrum: Spectrum, reference: Spectrum) -> float:
     """Return how far the root sum of squares of one spectrum lies above another's, in percent (Eq. 3).
 
-    NaN where the reference is nothing at all, as on level track.
+    NaN where the reference is nothing but round-off beside the other, as on level track.
 
     Wrong when: the two records differ in length, since their lines are then different frequencies.
     """
     ours, theirs = (float(np.linalg.norm(s.amplitude)) for s in (spectrum, reference))
-    return (ours / theirs - 1.0) * 100.0 if theirs else float("nan")
+    return (ours / theirs - 1.0) * 100.0 if theirs > 1e-9 * ours else float("nan")
