@@ -105,6 +105,11 @@ def main():
     print("\nloads, 8 cars     passes of the iteration alike")
     for loads in ("condensed", "bogies", "wheels"):
         print(f"  {loads:12s} {best(solve, paper.replace({'run.loads': loads})) / unit:6.2f}")
+    print("\nwheels, to 1e-8     iterated   solved together at every step   together / iterated")
+    for cars in (1, 8):
+        case = rb.case("paper").replace({"train.cars": cars, "run.loads": "wheels"})
+        iterated, together = best(solve, case, repeats=2), best(solve, case.replace({"run.interaction": "direct"}), repeats=2)
+        print(f"  {cars} cars {iterated / unit:18.2f} {together / unit:31.2f} {together / iterated:21.1f}")
     one = rb.case("paper").replace({"train.cars": 1, "run.loads": "wheels", "run.lead_in": 0.0, "run.tail": 0.0})
     converged, plain = best(solve, one), best(coupled(one), repeats=1)
     print(f"\none car, wheels, to 1e-8: suite                            {converged / unit:.2f}")
