@@ -7,6 +7,7 @@ from scipy.integrate import solve_ivp
 import railbridge as rb
 from railbridge.interaction import iterate, prepare
 from railbridge.settings import check
+from railbridge.vehicle import Body, Spring, Vehicle
 
 L, MASS, EI, MODES, RATIO = 25.0, 2303.0, 2.87e9 * 2.9, 3, 0.01
 CAR_MASS, STIFFNESS, DAMPING = 5750.0, 1.595e6, 2.0e4
@@ -143,3 +144,23 @@ def test_every_wheel_feels_the_deck_at_its_own_place():
             assert ours[0] == pytest.approx(lateral, abs=1e-9 * np.abs(lateral).max())
             assert ours[1] == pytest.approx(vertical, abs=1e-9 * np.abs(vertical).max())
             assert not u[i : i + 2, car, : len(place)][:, (place < -1e-6) | (place > deck.length + 1e-6)].any()
+
+
+def test_an_iteration_that_overflows_has_not_converged():
+    """A feather of a deck: the changes grow until forces are no numbers any more, which is not 'no change'."""
+    deck = rb.Beam("beam", (36.0,), 1.0, 8e10).deck(5, 0.0)
+    train = rb.Train(rb.vehicle("xia2000_planar"), cars=2)
+    track = rb.Track(rb.Harmonic(2e-3, wavelength=10.0))
+    with np.errstate(all="ignore"), pytest.raises(rb.NotConvergedError) as caught:
+        rb.cross(train, deck, track, speed=20.0, time_step=2e-3, lead_in=20.0, tail=0.0, max_iterations=300)
+    assert not caught.value.run.converged and not np.isfinite(caught.value.run.changes[-1])
+    assert caught.value.run.iterations < 300
+
+
+def test_a_vehicle_without_weight_on_the_rail_converges_by_its_lateral_forces():
+    body = Body("mass", 1e4, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), ("y",))
+    car = Vehicle("lateral", (body,), (Spring("mass", "rail", (0.0, 0.0, 0.0), (1e6, 0.0), (1e4, 0.0)),), 10.0)
+    track = rb.Track(lateral=rb.Harmonic(1e-3, wavelength=10.0))
+    run = rb.cross(rb.Train(car), rb.deck("viaduct36"), track, speed=20.0, tail=0.0)
+    assert run.converged and run.iterations > 2
+    assert 0.0 < run.changes[-1] < 1e-8

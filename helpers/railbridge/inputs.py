@@ -23,6 +23,7 @@ __all__ = [
     "choice",
     "data_file",
     "data_names",
+    "frozen",
     "integer",
     "keys",
     "number",
@@ -166,6 +167,12 @@ def numbers(field: str, values: Any, *, count: int | None = None, **limits: Any)
     if count is not None and len(result) != count:
         raise InputError(field, values, f"must hold {count} numbers, it holds {len(result)}")
     return np.array(result, dtype=float)
+
+
+def frozen(array: np.ndarray) -> np.ndarray:
+    """Return the same array, read-only from now on: it is kept and handed out again, so nobody may change it."""
+    array.setflags(write=False)
+    return array
 
 
 def boolean(field: str, value: Any) -> bool:

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .deck import Deck, Stations
+from .inputs import frozen
 from .response import SampledResponse
 from .settings import Settings
 from .track import Track
@@ -31,7 +32,7 @@ Delta = list[np.ndarray]
 """What the deck's motion adds to each car's wheel forces while it is on the deck, N, each shape (2 wheels, n)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DeckState:
     """The deck's modal coordinates, velocities and forces under one set of wheel forces, each shape (modes, samples)."""
 
@@ -40,7 +41,7 @@ class DeckState:
     modal_force: np.ndarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Coupling:
     """One train, one deck and one way of loading, ready for any number of passes.
 
@@ -106,7 +107,7 @@ class Coupling:
         """Steps 1 and 4: the deck under the loads of every station."""
         force = self.loads.modal_force(loads, len(self.modes), len(self.time))
         state = np.array([mode(f[None]) for mode, f in zip(self.modes, force, strict=True)])
-        return DeckState(state[:, 0], state[:, 1], force)
+        return DeckState(*map(frozen, (state[:, 0], state[:, 1], force)))
 
     def support_input(self, state: DeckState, cars: list[int]) -> np.ndarray:
         """Step 2: what the deck's motion w adds to the cars' input, k w + c w', shape (2 wheels, cars, n)."""
@@ -169,14 +170,15 @@ class Coupling:
         """Return the largest, over wheels and directions, of rms(new - old) / rms(force - static) while on the deck.
 
         A force that varies by less than a millionth of the largest static wheel load is measured by that instead, since
-        round-off never settles.
+        round-off never settles. Not finite where the forces are not.
         """
-        floor = 1e-6 * max(np.abs(s).max() for s in self.static)
+        floor = max(1e-6 * max(np.abs(s).max() for s in self.static), np.finfo(float).tiny)
         worst = 0.0
         for rigid, window, a, b in zip(self.rigid, self.windows, new, old, strict=True):
             moved = np.sqrt(np.mean((a - b) ** 2, axis=1))
             size = np.sqrt(np.mean((rigid[:, window] + a) ** 2, axis=1))
-            worst = max(worst, float(np.max(moved / np.maximum(size, floor))))
+            # Forces that have grown beyond all numbers give NaN, which max() would take for no change at all.
+            worst = float(np.maximum(worst, np.max(moved / np.maximum(size, floor))))
         return worst
 
 
@@ -205,7 +207,7 @@ def prepare(train: Train | AxleTrain, deck: Deck, track: Track, s: Settings) -> 
         train=train,
         deck=deck,
         settings=s,
-        time=np.arange(samples) * s.time_step,
+        time=frozen(np.arange(samples) * s.time_step),
         rigid=train.rigid_forces(track, s.speed, s.time_step, samples, s.lead_in, s.excitation),
         static=[train.static_forces(car) for car in range(len(train.centres))],
         windows=windows,
@@ -219,7 +221,7 @@ def prepare(train: Train | AxleTrain, deck: Deck, track: Track, s: Settings) -> 
     )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FixedPoint:
     """Every pass of an iteration, pass 0 (rigid deck) first, with the changes and whether it settled."""
 
