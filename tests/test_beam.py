@@ -197,3 +197,37 @@ def test_section_file_and_stiffnesses_make_the_same_deck():
     shipped = rb.deck("viaduct36")
     assert stiff.frequencies_hz == pytest.approx(shipped.frequencies_hz, rel=1e-12)
     assert stiff.damping_ratios == pytest.approx(shipped.damping_ratios, rel=1e-12)
+
+
+@pytest.mark.parametrize("short", [0.065, 0.1, 0.2])
+def test_a_very_short_span_beside_a_long_one_clamps_it(short):
+    """Very short elements once spoilt the lowest frequency by a fifth, or made it no number."""
+    clamped = 3.926602**2 * np.sqrt(EI / M) / (2 * np.pi * 60.0**2)
+    frequency = named(rb.Beam("b", (short, 60.0), M, EI), "vertical")[0]
+    # The short span gives way like a spring 3 E I / short, which is as good as a third of it more length.
+    assert frequency == pytest.approx(clamped * (1 + short / 3 / 60.0) ** -2, rel=2e-5)
+
+
+def test_a_bearing_beside_a_place_of_the_regular_mesh():
+    def first(x):
+        bearings = (rb.Bearing(0.0, ("z",)), rb.Bearing(x, ("z",)), rb.Bearing(40.0, ("z",)))
+        return named(rb.Beam("b", (40.0,), M, EI, bearings=bearings), "vertical")[0]
+
+    assert first(1.0000001) == pytest.approx(first(1.0), rel=1e-6)
+    assert first(1.0001) == pytest.approx(first(1.0), rel=1e-4)
+
+
+def test_bearings_and_spans_too_close_are_refused():
+    ends = rb.Bearing(0.0, ("z",)), rb.Bearing(L, ("z",))
+    with pytest.raises(rb.InputError, match=r"bearing: x = 36.0: is given to two"):
+        rb.Beam("b", (L,), M, EI, bearings=(*ends, rb.Bearing(L, ("z", "pitch"))))
+    with pytest.raises(rb.InputError, match=r"behind x = 20 m is too short"):
+        rb.Beam("b", (L,), M, EI, bearings=(*ends, rb.Bearing(20.0, ("z",)), rb.Bearing(20.001, ("z",))))
+    with pytest.raises(rb.InputError, match=r"spans = .*0.001 m behind x = 0 m is too short"):
+        rb.Beam("b", (1e-3, 1000.0), M, EI)
+
+
+@pytest.mark.parametrize("damping", [-0.1, float("nan"), (1.0, -1e-3), (1.0,)])
+def test_damping_of_a_deck_is_checked(damping):
+    with pytest.raises(rb.InputError, match=r"deck.damping"):
+        SIMPLE.deck(3, damping)

@@ -19,6 +19,9 @@ from .mesh import FIELDS, BeamModes, BeamRecovery, Mesh
 
 __all__ = ["Beam", "BeamModes", "Bearing", "deck", "deck_from_table"]
 
+_SHORTEST = 1e-3
+"""Shortest span or distance of bearings as a share of the length: the deck's lowest frequency then keeps five digits."""
+
 FIXITIES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
@@ -54,12 +57,13 @@ class Beam:
     bearings : tuple of Bearing
         Default: y, z and roll held at every bearing line, x at the first.
     elements : int or None
-        Number of elements; default about 40, at least 12 a span.
+        Number of elements, at least 2 between neighbouring bearings; default about 40, at least 12 a span.
 
     Raises
     ------
     InputError
-        Spans, mass or stiffness not positive, a bearing off the deck, or a beam that can move as a rigid body.
+        Spans, mass or stiffness not positive, a bearing off the deck or too close to another, or a beam that can move as a
+        rigid body.
     """
 
     name: str
@@ -100,6 +104,7 @@ class Beam:
             for f in bearing.fixed:
                 inputs.choice(f"{here}: fixed", f, FIXITIES)
         object.__setattr__(self, "bearings", tuple(self._on_line(b) for b in self.bearings))
+        self._refuse_close_lines(where)
         if self.elements is not None:
             inputs.integer(f"{where}: elements", self.elements, least=2, most=400)
         self._refuse_mechanism()
@@ -125,6 +130,25 @@ class Beam:
         lines = np.concatenate([[0.0], np.cumsum(self.spans)])
         nearest = float(lines[np.argmin(np.abs(lines - bearing.x))])
         return replace(bearing, x=nearest) if abs(nearest - bearing.x) <= 1e-6 * self.length else bearing
+
+    @cached_property
+    def _lines(self) -> np.ndarray:
+        """Ends of spans and bearings, m, ascending: places that must be nodes."""
+        return np.unique(np.concatenate([[0.0], np.cumsum(self.spans), [b.x for b in self.bearings]]))
+
+    def _refuse_close_lines(self, where: str) -> None:
+        """Refuse spans and distances of bearings so short that round-off would spoil the modes of the whole deck."""
+        places = sorted(b.x for b in self.bearings)
+        if len(set(places)) < len(places):
+            double = next(a for a, b in zip(places[:-1], places[1:], strict=True) if a == b)
+            raise InputError(f"{where}: bearing: x", double, "is given to two bearing lines", "List all they hold in one of them")
+        gaps = np.diff(self._lines)
+        if gaps.min() < _SHORTEST * self.length:
+            short = f"of {gaps.min():.3g} m behind x = {self._lines[np.argmin(gaps)]:g} m is too short, "
+            short += f"must be at least {_SHORTEST:g} of the whole length"
+            raise InputError(
+                f"{where}: spans", list(self.spans), f"a span or distance of bearings {short}", "Merge the two lines"
+            )
 
     def _refuse_mechanism(self) -> None:
         """Check that the bearings hold every rigid-body motion the beam is free to make."""
@@ -154,10 +178,13 @@ class Beam:
     def mesh(self) -> Mesh:
         """The finite-element mesh of modes and histories."""
         wanted = self.elements or 40
-        lines = np.concatenate([[0.0], np.cumsum(self.spans)])
-        per_span = [max(2 if self.elements else 12, round(wanted * s / self.length)) for s in self.spans]
-        nodes = [np.linspace(a, b, n + 1) for a, b, n in zip(lines[:-1], lines[1:], per_span, strict=True)]
-        return Mesh(self, np.unique(np.concatenate([*nodes, [b.x for b in self.bearings]]).round(12)))
+        nodes = [self._lines[:1]]
+        for a, b in zip(self._lines[:-1], self._lines[1:], strict=True):
+            share = (b - a) / self.length
+            # Very short elements among long ones would cost the lowest modes their digits.
+            least = 12 if self.elements is None and share > 0.01 else 2
+            nodes.append(np.linspace(a, b, max(least, round(wanted * share)) + 1)[1:])
+        return Mesh(self, np.concatenate(nodes))
 
     @cached_property
     def modes(self) -> BeamModes:
@@ -181,6 +208,10 @@ class Beam:
             See `Deck`.
         """
         wanted = inputs.integer("deck.modes", modes, least=1)
+        if np.isscalar(damping):
+            inputs.number("deck.damping", damping, least=0.0)
+        else:
+            damping = inputs.numbers("deck.damping", damping, count=2, least=0.0)
         everything = self.modes
         excitable = [i for i, n in enumerate(everything.names) if not n.startswith("axial")]
         if wanted > len(excitable):

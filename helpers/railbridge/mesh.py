@@ -55,7 +55,7 @@ def _derivative_integral(order: int) -> np.ndarray:
     return result
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BeamModes:
     """Natural modes of a beam, all fields, ascending.
 
