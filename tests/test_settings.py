@@ -47,3 +47,12 @@ def test_a_given_step_may_just_do():
     assert check(rb.Train(CAR), DECK, track, speed=20.0, time_step=0.01).time_step == 0.01
     with pytest.raises(rb.InputError, match="fewer than 10 samples in 2 m"):
         check(rb.Train(CAR), DECK, track, speed=20.0, time_step=0.0101)
+
+
+def test_a_lead_in_too_short_for_its_fade_in_is_refused():
+    track = rb.Track(rb.Table([-100.0, 0.0, 100.0], [2e-3, 2e-3, 2e-3]))
+    train, deck = rb.Train(rb.vehicle("xia2000")), rb.deck("viaduct36")
+    with pytest.raises(rb.InputError, match=r"run.lead_in = 0.03: .* at least 0.4 m"):
+        check(train, deck, track, speed=20.0, time_step=1e-3, lead_in=0.03)
+    for length in (0.0, 0.4):
+        assert check(train, deck, track, speed=20.0, time_step=1e-3, lead_in=length).lead_in == length

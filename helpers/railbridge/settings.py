@@ -87,6 +87,7 @@ def check(
     lead_in = inputs.number("run.lead_in", lead_in, least=0.0, most=1e5, unit="m", remedy="0 means level track before the deck")
     tail = inputs.number("run.tail", tail, least=0.0, most=1e4, unit="s")
     step = _time_step(train, deck, track, speed, time_step)
+    _refuse_abrupt_fade(lead_in, speed * step)
     _refuse_size(train, deck, speed, step, lead_in, tail)
     return Settings(
         speed=speed,
@@ -112,6 +113,14 @@ def _track_offset(train: Train | AxleTrain, deck: Deck, given: float | str) -> f
             off = f"wheel {w.number} of car {w.car} at y = {offset + w.y:g} m is off the deck, half width {deck.width / 2:g} m"
             raise InputError("train.track", given, off, "Move the track towards the axis, or correct the deck's width")
     return offset
+
+
+def _refuse_abrupt_fade(lead_in: float, advance: float) -> None:
+    """Refuse a fade-in (half the lead-in) that the samples do not resolve: its slope, met by chance, would be a blow."""
+    least = 2 * SAMPLES_PER_LENGTH * advance
+    if 0.0 < lead_in < least * (1 - 1e-9):
+        few = f"leaves fewer than {SAMPLES_PER_LENGTH} samples for the fade-in; must be 0 or at least {least:.3g} m"
+        raise InputError("run.lead_in", lead_in, few, "Leave it out for 7.5 s of travel; 0 means level track before the deck")
 
 
 def _refuse_size(train: Train | AxleTrain, deck: Deck, speed: float, step: float, lead_in: float, tail: float) -> None:
