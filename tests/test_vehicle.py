@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import railbridge as rb
 from railbridge import inputs
-from railbridge.vehicle import CAR_PARAMETERS, two_bogie_car
+from railbridge.vehicle import CAR_PARAMETERS, Body, Spring, Vehicle, planar_car, two_bogie_car
 
 CAR = rb.vehicle("xia2000")
 PARAMETERS = inputs.read_parameters(inputs.data_file("vehicles", "xia2000"), CAR_PARAMETERS)
@@ -213,3 +213,22 @@ def test_forces_scale_with_the_car(factor, seed):
 def test_frames_have_units():
     assert list(CAR.modes().to_frame().columns) == ["frequency (Hz)", "damping ratio", "moves most"]
     assert len(CAR.damped_modes().to_frame()) == 15
+
+
+def test_a_vehicle_that_tips_over_is_refused():
+    body = Body("mass", 1e4, (1e4, 1e5, 1e5), (6.0, 0.0, 1.0), ("z", "pitch"))
+    springs = tuple(Spring("mass", "rail", (x, 0.0, 0.0), (0.0, 1e6), (0.0, 1e3)) for x in (3.0, -3.0))
+    with pytest.raises(rb.InputError, match=r"wheel at x = -3, y = 0 m.*tips over"):
+        Vehicle("eccentric", (body,), springs, 10.0)
+
+
+def test_planar_car_leaves_lateral_springs_out():
+    bumper = Spring("car", "rail", (0.0, 0.0, 0.5), (1e5, 0.0), (0.0, 0.0))
+    with_bumper = replace(CAR, springs=(*CAR.springs, bumper))
+    assert planar_car(with_bumper).modes().frequencies_hz == pytest.approx(planar_car(CAR).modes().frequencies_hz)
+
+
+def test_matrices_are_kept_and_cannot_be_changed():
+    for matrix in (CAR.mass_matrix, CAR.stiffness_matrix, CAR.damping_matrix, CAR.contact_stiffness, CAR.contact_damping):
+        with pytest.raises(ValueError, match="read-only"):
+            matrix[0, 0] = 1.0

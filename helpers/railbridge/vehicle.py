@@ -21,7 +21,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from . import inputs
-from .inputs import G, InputError
+from .inputs import G, InputError, frozen
 from .response import LinearSystem, SampledResponse, second_order_system
 
 __all__ = ["FREEDOMS", "Body", "Contact", "Modes", "Spring", "Vehicle", "planar_car", "sprung_mass", "two_bogie_car", "vehicle"]
@@ -44,7 +44,7 @@ class Body:
     position : tuple of 3 floats
         Centre of mass in the vehicle frame, m.
     freedoms : tuple of str
-        A subset of y, z, roll, pitch, yaw.
+        A subset of y, z, roll, pitch, yaw. One left out is held still in space, so without z the rail does not carry the weight.
     """
 
     name: str
@@ -139,7 +139,7 @@ class Vehicle:
     ------
     InputError
         A name that is not unique or unknown, a mass, inertia or length that is not positive, negative stiffness or
-        damping, no contact with the rail, or a freedom that no spring holds.
+        damping, no contact with the rail, a freedom that no spring holds, or a wheel lifted off the rail at rest.
     """
 
     name: str
@@ -156,6 +156,7 @@ class Vehicle:
         if len(labels) == 0:
             raise InputError(f"vehicle {self.name}: freedoms", None, "no body has a freedom")
         _refuse_mechanism(self)
+        _refuse_lifted_wheel(self)
 
     @cached_property
     def mass_matrix(self) -> np.ndarray:
@@ -165,7 +166,7 @@ class Vehicle:
             for f in FREEDOMS:
                 if f in body.freedoms:
                     diagonal.append(body.inertia[_INERTIA_AXIS[f]] if f in _INERTIA_AXIS else body.mass)
-        return np.diag(diagonal)
+        return frozen(np.diag(diagonal).astype(float))
 
     @cached_property
     def _rows(self) -> list[tuple[Spring, int, np.ndarray]]:
@@ -200,12 +201,12 @@ class Vehicle:
     @cached_property
     def stiffness_matrix(self) -> np.ndarray:
         """K, shape (n, n); N/m and N m. Without the gravity stiffness of the high body."""
-        return self._assemble("stiffness")
+        return frozen(self._assemble("stiffness"))
 
     @cached_property
     def damping_matrix(self) -> np.ndarray:
         """C, shape (n, n); N s/m and N m s."""
-        return self._assemble("damping")
+        return frozen(self._assemble("damping"))
 
     @cached_property
     def _contact_springs(self) -> list[Spring]:
@@ -246,12 +247,12 @@ class Vehicle:
     @cached_property
     def contact_stiffness(self) -> np.ndarray:
         """Lateral and vertical stiffness of every contact, N/m, shape (contacts, 2)."""
-        return self._contact_rows()[1].reshape(-1, 2)
+        return frozen(self._contact_rows()[1].reshape(-1, 2))
 
     @cached_property
     def contact_damping(self) -> np.ndarray:
         """Lateral and vertical damping of every contact, N s/m, shape (contacts, 2)."""
-        return self._contact_rows()[2].reshape(-1, 2)
+        return frozen(self._contact_rows()[2].reshape(-1, 2))
 
     def system(self) -> LinearSystem:
         """Return the vehicle with input ``k r + c r'`` and output ``k g.x + c g.x'``, both shape (2 contacts,), N.
@@ -388,6 +389,18 @@ def _refuse_mechanism(v: Vehicle) -> None:
         )
 
 
+def _refuse_lifted_wheel(v: Vehicle) -> None:
+    """Refuse a vehicle that would tip over: the contact is permanent here, so such a wheel would pull at the rail."""
+    for wheel in v.contacts:
+        if wheel.static_load < -1e-9 * v.weight:
+            raise InputError(
+                f"vehicle {v.name}: wheel at x = {wheel.x:g}, y = {wheel.y:g} m: static load",
+                f"{wheel.static_load:.4g} N",
+                "must not be negative, the vehicle tips over at rest",
+                "Correct the positions of bodies and springs, measured from mid-length",
+            )
+
+
 CAR_PARAMETERS = {
     "car_body_mass": "kg", "car_body_roll_inertia": "kg m2", "car_body_pitch_inertia": "kg m2", "car_body_yaw_inertia": "kg m2",
     "bogie_mass": "kg", "bogie_roll_inertia": "kg m2", "bogie_pitch_inertia": "kg m2", "bogie_yaw_inertia": "kg m2",
@@ -450,10 +463,15 @@ def sprung_mass(name: str, mass: float, stiffness: float, damping: float = 0.0, 
 
 
 def planar_car(car: Vehicle) -> Vehicle:
-    """Reduce a car to its vertical plane: bounce and pitch of every body, left and right springs put together at y = 0."""
+    """Reduce a car to its vertical plane: bounce and pitch of every body, left and right springs put together at y = 0.
+
+    Springs that are lateral only are left out.
+    """
     bodies = tuple(replace(b, freedoms=tuple(f for f in b.freedoms if f in ("z", "pitch"))) for b in car.bodies)
     joined: dict[tuple, Spring] = {}
     for s in car.springs:
+        if s.stiffness[1] == s.damping[1] == 0.0:
+            continue
         key = (s.from_, s.to, s.at[0], s.at[2])
         before = joined.get(key, Spring(s.from_, s.to, (s.at[0], 0.0, s.at[2]), (0.0, 0.0), (0.0, 0.0)))
         total = (0.0, before.stiffness[1] + s.stiffness[1]), (0.0, before.damping[1] + s.damping[1])
