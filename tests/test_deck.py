@@ -165,3 +165,15 @@ def test_static_values_of_the_lesson():
     assert total * w(four)[:, 0, 1].mean() == pytest.approx(4.810e-3, rel=2e-3)
     assert total * m(one)[:, 0, 1].mean() == pytest.approx(5272e3, rel=1e-3)
     assert total * m(four)[:, 0, 1].mean() == pytest.approx(2987e3, rel=1e-3)
+
+
+def test_a_track_s_name_on_a_deck_that_names_none():
+    with pytest.raises(rb.InputError, match="the deck names no tracks"):
+        rb.Beam("b", (30.0,), 1e4, 5e10).deck(3).track_offset("left")
+
+
+def test_a_deck_is_made_once_so_its_numbers_cannot_be_changed():
+    deck = rb.case("paper").deck
+    with pytest.raises(ValueError, match="read-only"):
+        deck.frequencies_hz[0] = 1.0
+    assert deck == rb.case("paper").deck and deck != rb.deck("viaduct36")  # the same one, or another; never an error

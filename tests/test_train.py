@@ -197,3 +197,18 @@ def test_steady_state_needs_one_wavelength():
     for wrong in (track, rb.Track(), rb.Track(vertical=rb.Table([0, 10.0], [0, 1e-3]))):
         with pytest.raises(rb.InputError, match="one wavelength"):
             rb.steady_forces(CAR, wrong, V)
+
+
+@pytest.mark.parametrize(
+    ("made", "named"),
+    [
+        (lambda: rb.Train(5), "train.vehicle"),
+        (lambda: rb.Train([]), "train.vehicle"),
+        (lambda: rb.Train(CAR, notches=rb.Notch(((1, 1),), 2.7, 9.0, 1e-3, 0.05)), "train.notch"),
+        (lambda: rb.Train(CAR, notches=[5]), "train.notch"),
+    ],
+)
+def test_what_is_no_vehicle_or_notch_is_refused_in_words(made, named):
+    with pytest.raises(rb.InputError) as caught:
+        made()
+    assert caught.value.field == named

@@ -61,7 +61,7 @@ def rayleigh_ratio(alpha: float, beta: float, frequencies_hz: np.ndarray) -> np.
     return alpha / (2 * omega) + beta * omega / 2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PiecewiseCubic:
     """Functions along the deck, cubic between edges.
 
@@ -89,7 +89,7 @@ class PiecewiseCubic:
         return np.einsum("pk,kpnc->knc", factors, self.coefficients[i])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Line:
     """How one output follows from the deck's state and loads.
 
@@ -118,7 +118,7 @@ class Recovery(Protocol):
         """Return the line of a reaction, None where that freedom is not held."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class History:
     """Named time histories with units.
 
@@ -155,7 +155,7 @@ class History:
         return float(values[i]), float(self.time[i])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Stations:
     """Loads that travel together along the deck: when each is on it, and the shapes it meets there.
 
@@ -245,7 +245,7 @@ def _sampled_mode(omega: float, ratio: float, time_step: float) -> SampledRespon
     return oscillator(omega, ratio).sampled(time_step)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Deck:
     """A modal deck.
 
@@ -283,6 +283,11 @@ class Deck:
     width: float | None = None
     mass_per_metre: float | None = None
 
+    def __post_init__(self) -> None:
+        # Copies, since a deck is made once for many crossings.
+        for name in ("frequencies_hz", "damping_ratios"):
+            object.__setattr__(self, name, inputs.frozen(np.array(getattr(self, name), dtype=float)))
+
     @property
     def has(self) -> dict[str, bool]:
         """Whether the deck moves in y, z and roll."""
@@ -298,7 +303,11 @@ class Deck:
     def track_offset(self, track: float | str) -> float:
         """Return a track's distance to the left of the axis, m, from its name or from the number itself."""
         if isinstance(track, str):
-            inputs.choice("train.track", track, self.tracks or ["0.0 (the deck file names no track)"])
+            if not self.tracks:
+                raise InputError(
+                    "train.track", track, "the deck names no tracks", "Give the distance from its axis, m, left positive"
+                )
+            inputs.choice("train.track", track, self.tracks)
             return self.tracks[track]
         limit = self.width / 2 if self.width else None
         return inputs.number("train.track", track, least=None if limit is None else -limit, most=limit, unit="m")

@@ -12,7 +12,7 @@ BINS = 60
 """Number of spectral lines in Eq. 3."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Spectrum:
     """One-sided amplitude spectrum.
 

@@ -114,8 +114,8 @@ class Table:
         r = inputs.numbers("r", self.r, count=len(x), unit="m")
         if len(x) < 2 or np.any(np.diff(x) <= 0):
             raise InputError("x", self.x, "must ascend and hold at least two points", "Sort it and remove doubles")
-        object.__setattr__(self, "x", x)
-        object.__setattr__(self, "r", r)
+        object.__setattr__(self, "x", inputs.frozen(x))
+        object.__setattr__(self, "r", inputs.frozen(r))
 
     @property
     def shortest(self) -> float:

@@ -10,7 +10,7 @@ forces are run once for each kind of car (and for each way it falls between the 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -100,7 +100,8 @@ class Train:
                 self, "cars", inputs.integer("train.cars", 1 if self.cars is None else self.cars, least=1, most=1000)
             )
         else:
-            if not self.vehicle or not all(isinstance(v, Vehicle) for v in self.vehicle):
+            several = isinstance(self.vehicle, (list, tuple)) and len(self.vehicle) > 0
+            if not several or not all(isinstance(v, Vehicle) for v in self.vehicle):
                 raise InputError("train.vehicle", self.vehicle, "must be a Vehicle or one Vehicle for each car")
             if self.cars not in (None, len(self.vehicle)):
                 raise InputError("train.cars", self.cars, f"must be the number of vehicles given, {len(self.vehicle)}")
@@ -108,6 +109,8 @@ class Train:
             object.__setattr__(self, "vehicle", tuple(self.vehicle))
         if self.car_spacing is not None:
             inputs.number("train.car_spacing", self.car_spacing, above=0.0, unit="m")
+        if not isinstance(self.notches, (list, tuple)) or not all(isinstance(n, Notch) for n in self.notches):
+            raise InputError("train.notch", self.notches, "must be a list of notches", "Put a single one into a list, too")
         object.__setattr__(self, "notches", tuple(self.notches))
         known = {(w.car, w.number) for w in self.wheels}
         for notch in self.notches:
@@ -298,8 +301,8 @@ class AxleTrain:
 
     axles: Sequence[float]
     loads: Sequence[float]
-    cars: int = 1
-    notches: tuple[Notch, ...] = ()
+    cars: int = field(default=1, init=False)
+    notches: tuple[Notch, ...] = field(default=(), init=False)
 
     def __post_init__(self) -> None:
         axles = inputs.numbers("train.axles", self.axles, least=0.0, unit="m")
