@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import railbridge as rb
+from railbridge.vehicle import Body, Spring, Vehicle
 
 CAR = rb.vehicle("xia2000")
 DECK = rb.deck("viaduct36")
@@ -289,3 +290,52 @@ def test_a_short_run_up_on_level_track_bare_axles_or_a_table_is_no_matter():
             rb.cross(train, DECK, track, speed=20.0, lead_in=1.0, iterations=1, time_step=2e-3)
         level = rb.Track(rb.Harmonic(0.0, wavelength=3.0))
         rb.cross(rb.Train(CAR), DECK, level, speed=20.0, lead_in=1.0, iterations=1, time_step=2e-3)
+
+
+def test_results_cannot_be_changed_by_accident():
+    run = rb.cross(rb.Train(CAR), DECK, WAVES, speed=20.0, iterations=1, time_step=2e-3)
+    for array in (run.time, run.wheel_forces, run.body_accelerations, run.state.q):
+        with pytest.raises(ValueError, match="read-only"):
+            array[..., 0] = 1.0
+    assert run == run and run != run.at(0)
+
+
+def test_bare_axles_have_no_contraction():
+    run = rb.cross(rb.AxleTrain([0.0], [1e5]), DECK, speed=20.0, time_step=2e-3)
+    assert run.changes == (0.0, 0.0) and np.isnan(run.ratios).all() and run.ratios.shape == (1,)
+
+
+def test_what_is_no_track_is_refused():
+    with pytest.raises(rb.InputError, match="track"):
+        rb.cross(rb.Train(CAR), DECK, [], speed=20.0)
+
+
+def test_self_weight_without_recovery_is_refused():
+    deck = replace(DECK, recovery=None)
+    run = rb.cross(rb.AxleTrain([0.0], [1e5]), deck, speed=20.0, time_step=2e-3)
+    assert np.isfinite(run.displacement(18.0)["displacement_z"]).all()
+    with pytest.raises(rb.InputError, match="only its modes are known"):
+        run.displacement(18.0, self_weight=True)
+
+
+def test_car_forces_at_a_centre_of_mass_off_the_middle():
+    """Newton and Euler of a rigid car on a rigid deck: the couples about its centre of mass are those of its own rotation."""
+    x, y, z = 1.3, 0.2, 1.5
+    body = Body("car", 3e4, (3e4, 3e5, 3e5), (x, y, z))
+    springs = tuple(
+        Spring("car", "rail", (a, b, 0.0), (8e5, 1e6), (2e4, 3e4)) for a in (4.0, -3.0) for b in (1.0, -0.8)
+    )  # fmt: skip
+    train = rb.Train(Vehicle("off centre", (body,), springs, 9.0))
+    run = rb.cross(train, DECK, WAVES, speed=20.0, interaction="rigid", time_step=2e-3)
+    centre = run.car_forces(at="centre", static=False)
+    # Pitch acceleration from the vertical ones above the foremost and rearmost springs.
+    vertical = run.body_accelerations[0, :, 1]
+    pitch = (vertical[0] - vertical[2]) / -7.0
+    assert centre["moment_y"] == pytest.approx(-3e5 * pitch, abs=1e-6 * np.abs(centre["moment_y"]).max())
+    lateral = run.body_accelerations[0, :, 0]
+    yaw = (lateral[0] - lateral[2]) / 7.0
+    assert centre["moment_z"] == pytest.approx(-3e5 * yaw, abs=1e-6 * np.abs(centre["moment_z"]).max())
+    # Weight acts through the centre of mass: no couple about it at rest.
+    whole = run.car_forces(at="centre")
+    assert (whole["moment_x"] - centre["moment_x"])[0] == pytest.approx(0.0, abs=1.0)
+    assert (whole["moment_y"] - centre["moment_y"])[0] == pytest.approx(0.0, abs=1.0)

@@ -34,7 +34,7 @@ class NotConvergedError(RuntimeError):
         self.run = run
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Deviations:
     """Eq. 3 for every iteration, percent (Table 3).
 
@@ -54,7 +54,7 @@ class Deviations:
         return pd.DataFrame({"from rigid (%)": self.from_rigid, "from previous (%)": self.from_previous}, index=index)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Crossing:
     """A computed crossing: everything about the last pass (or another, see `at`).
 
@@ -95,7 +95,9 @@ class Crossing:
     @property
     def ratios(self) -> np.ndarray:
         """Ratio of successive changes: the contraction, shape (iterations - 1,)."""
-        return np.array(self.changes[1:]) / np.array(self.changes[:-1])
+        changes = np.array(self.changes)
+        # NaN after a change of nothing, as of bare axle loads.
+        return np.divide(changes[1:], changes[:-1], out=np.full(max(len(changes) - 1, 0), np.nan), where=changes[:-1] > 0.0)
 
     @property
     def time(self) -> np.ndarray:
@@ -121,7 +123,7 @@ class Crossing:
             if self.shown > 0 and window.stop < total.shape[1] and len(self.train.groups()) > 0:
                 total[:, window.stop :] += self.coupling.decay(self._felt, car)
             rows.append(total.reshape(-1, 2, total.shape[1]))
-        return np.concatenate(rows)
+        return inputs.frozen(np.concatenate(rows))
 
     @cached_property
     def _felt(self) -> DeckState:
@@ -145,12 +147,12 @@ class Crossing:
         """
         s = self.settings
         if not self.train.groups():
-            return np.zeros((0, 3, 2, len(self.time)))
+            return inputs.frozen(np.zeros((0, 3, 2, len(self.time))))
         rigid = self.train.rigid_accelerations(self.track, s.speed, s.time_step, len(self.time), s.lead_in, s.excitation)
         if self.shown > 0:
             added = self.coupling.body_accelerations(self._felt)
             rigid = [r + a for r, a in zip(rigid, added, strict=True)]
-        return np.array(rigid).reshape(len(rigid), 3, 2, -1)
+        return inputs.frozen(np.array(rigid).reshape(len(rigid), 3, 2, -1))
 
     def car_forces(self, car: int = 1, at: str = "track", static: bool = True) -> History:
         """Return one car's wheel forces condensed to five components over the whole record (Figures 9 to 11).
@@ -172,8 +174,10 @@ class Crossing:
         matrix = self.train.condensation(index, "condensed").matrix[0]
         values = dict(zip(CONDENSED, matrix @ forces, strict=True))
         if at == "centre":
-            height = max(b.position[2] for b in self.train.vehicles[index].bodies)
-            values["moment_x"] = values["moment_x"] + height * values["force_y"]
+            x, y, z = self.train.vehicles[index].body.position
+            values["moment_x"] = values["moment_x"] - y * values["force_z"] + z * values["force_y"]
+            values["moment_y"] = values["moment_y"] + x * values["force_z"]
+            values["moment_z"] = values["moment_z"] - x * values["force_y"]
         units = {c: "N" if c.startswith("force") else "N m" for c in CONDENSED}
         return History(self.time, values, units, f"car {car}")
 
@@ -223,8 +227,8 @@ class Crossing:
         values = {}
         for c, (name, has) in enumerate(zip(names, self.deck.has.values(), strict=True)):
             values[name] = shape[:, c] @ modal if has else np.full(modal.shape[1], np.nan)
-        if self_weight and self.deck.recovery is not None:
-            values[names[1]] = values[names[1]] + self.deck.recovery.section("displacement_z", x).self_weight
+        if self_weight:
+            values[names[1]] = values[names[1]] + self._recovery().section("displacement_z", x).self_weight
         return History(self.time, values, dict(zip(names, units, strict=True)), f"x = {x:g} m")
 
     def section_forces(self, x: float, self_weight: bool = False) -> History:
@@ -337,8 +341,9 @@ def cross(
     time_step : float, optional
         s; see `default_time_step`.
     lead_in : float, optional
-        Run-up on the irregular track, m; default 7.5 s of travel. Zero: level track before the deck, the train at rest. On
-        harmonic track a run-up that leaves more than 1 % of the steady forces unsettled is warned about.
+        Run-up on the irregular track, m; default 7.5 s of travel. Zero: level track before the deck, the train at rest;
+        wrong where the track then starts on the deck with a step (a phase that is not zero), whose blow on the dampers is
+        not counted. On harmonic track a run-up that leaves more than 1 % of the steady forces unsettled is warned about.
     tail : float
         s after the last axle has left.
     tolerance : float
@@ -372,7 +377,7 @@ def cross(
     -----
     Self-weight is not fed back: the track is laid level on the sagged deck.
     """
-    track = track or Track()
+    track = Track() if track is None else track
     settings = check(
         train, deck, track,
         speed=speed, loads=loads, interaction=interaction, track_offset=track_offset, time_step=time_step, lead_in=lead_in,
