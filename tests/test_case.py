@@ -1,9 +1,12 @@
 """A case is data: it goes through replace, get, code and files unchanged, and runs like the objects it stands for."""
 
+import os
+
 import numpy as np
 import pytest
 
 import railbridge as rb
+from railbridge import inputs
 
 PAPER = rb.case("paper")
 SMALL = {
@@ -129,3 +132,32 @@ def test_files(tmp_path):
 def test_unknown_keys_and_wrong_tables(path, value, message):
     with pytest.raises(rb.InputError, match=message):
         PAPER.replace({path: value})
+
+
+def test_cases_compare_by_their_content():
+    two = {"output.points": [9.0, 18.0]}
+    assert rb.case("paper").replace(two) == rb.case("paper").replace(two) != rb.case("paper")
+
+
+def test_code_of_a_point_at_the_very_end_runs():
+    tables = {
+        "deck": {"length": 33.33337, "bending_stiffness_vertical": 8e10, "mass": 1e4, "damping": {"modal": 0.01}, "modes": 3},
+        "train": {"axles": [0.0], "loads": [1e5]},
+        "run": {"speed": 20.0},
+        "output": {"points": [33.33337]},
+    }
+    exec(rb.case(tables).code(), {})
+
+
+def test_a_vehicle_file_of_the_same_name_elsewhere_is_another_vehicle(tmp_path, monkeypatch):
+    text = inputs.data_file("vehicles", "sprung_mass").read_text(encoding="utf-8")
+    for folder, length in (("a", 11.0), ("b", 12.0)):
+        place = tmp_path / folder
+        place.mkdir()
+        file = place / "own.toml"
+        lines = [f"length = {length}" if x.startswith("length") else x for x in text.splitlines()]
+        file.write_text("\n".join(lines), encoding="utf-8")
+        os.utime(file, (1e9, 1e9))
+        monkeypatch.chdir(place)
+        changes = {"train.vehicle": "own.toml", "train.cars": 1, "run.loads": "wheels"}
+        assert rb.case("paper").replace(changes).train.vehicle.length == length

@@ -55,12 +55,12 @@ class Case:
     """
 
     content: dict[str, Any]
-    train: Train | AxleTrain = field(init=False, repr=False)
-    deck: Deck = field(init=False, repr=False)
-    track: Track = field(init=False, repr=False)
-    options: dict[str, Any] = field(init=False, repr=False)
-    settings: Settings = field(init=False, repr=False)
-    points: np.ndarray = field(init=False, repr=False)
+    train: Train | AxleTrain = field(init=False, repr=False, compare=False)
+    deck: Deck = field(init=False, repr=False, compare=False)
+    track: Track = field(init=False, repr=False, compare=False)
+    options: dict[str, Any] = field(init=False, repr=False, compare=False)
+    settings: Settings = field(init=False, repr=False, compare=False)
+    points: np.ndarray = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         content = {k: inputs.plain(k, v) for k, v in inputs.table("case", self.content).items()}
@@ -130,7 +130,7 @@ class Case:
     def code(self) -> str:
         """Return Python lines that build and run this very case."""
         tables = pformat(self.content, width=100, sort_dicts=False)
-        place = f"{self.points[0]:g}"
+        place = repr(float(self.points[0])).removesuffix(".0")  # rounded, it might lie behind the deck's end
         return f"import railbridge as rb\n\ncase = rb.Case({tables})\nrun = case.run()\nrun.displacement(x={place}).to_frame()\n"
 
 
@@ -203,13 +203,15 @@ def _cached_deck(name: str, content: str) -> Deck:
 
 
 @lru_cache(maxsize=16)
-def _cached_vehicle(name: str, stamp: float) -> Vehicle:
-    return vehicle(name)
+def _cached_vehicle(path: Path, *_stamp: int) -> Vehicle:
+    """Make a vehicle once; a file that has changed since, or another of the same name, is another vehicle."""
+    return vehicle(path)
 
 
 def _vehicle(name: Any) -> Vehicle:
-    path = inputs.data_file("vehicles", name)
-    return _cached_vehicle(str(name), path.stat().st_mtime)
+    path = inputs.data_file("vehicles", name).resolve()
+    stamp = path.stat()
+    return _cached_vehicle(path, stamp.st_mtime_ns, stamp.st_size)
 
 
 def _train(raw: Any) -> tuple[Train | AxleTrain, float | str]:
