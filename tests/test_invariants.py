@@ -94,7 +94,7 @@ def test_displacement_and_force_converge_with_the_square_of_the_step(span, mass,
     deck, train = plane_deck(span), rb.Train(rb.sprung_mass("mass", *mass))
     coarse = deck.length / speed / 128
     steps = coarse / 2.0 ** np.arange(6)
-    track = rb.Track(vertical=rb.Harmonic(wave.amplitude, wave.wavelength, phase=np.pi / 2))
+    track = rb.Track(vertical=wave)
     runs = [cross(train, deck, track, speed=speed, time_step=float(h), loads=loads) for h in steps]
     found, errors = order(steps, [middle(r) for r in runs])
     assert 1.9 < found < 2.1, errors
@@ -317,7 +317,7 @@ def test_a_train_on_the_other_track_gives_the_mirror_image(offset, vertical, lat
     deck, train = rb.deck("viaduct36"), rb.Train(CAR)
 
     def run(sign):
-        high = rb.Harmonic(vertical.amplitude, vertical.wavelength), rb.Harmonic(0.5 * vertical.amplitude, 11.0, phase=1.0)
+        high = rb.Harmonic(vertical.amplitude, vertical.wavelength), rb.Harmonic(0.5 * vertical.amplitude, 11.0)
         side = rb.Harmonic(lateral.amplitude, lateral.wavelength, phase=0.0 if sign > 0 else np.pi)
         track = rb.Track(vertical=rb.Rails(*high[::sign]), lateral=side)
         return cross(
@@ -369,7 +369,7 @@ def test_infinitely_slow_crossing_gives_the_influence_lines(span, place, part):
 
 @few(8)
 @given(
-    offset=st.floats(-3.0, 3.0), aside=st.floats(-0.5, 0.5), ahead=st.floats(0.5, 2.0), place=st.floats(0.2, 0.8),
+    offset=st.floats(-3.0, 3.0), aside=st.floats(-0.25, 0.25), ahead=st.floats(0.5, 1.5), place=st.floats(0.2, 0.8),
     interaction=st.sampled_from(["iterate", "direct", "rigid"]), loads=st.sampled_from(["wheels", "condensed"]),
 )  # fmt: skip
 def test_bearings_carry_the_weight_where_it_stands(offset, aside, ahead, place, interaction, loads):
@@ -405,7 +405,7 @@ def test_bearings_carry_the_weight_where_it_stands(offset, aside, ahead, place, 
 @given(offset=st.floats(-3.0, 3.0), wave=waves, speed=speeds)
 def test_a_rigid_deck_gives_the_rigid_deck_forces_exactly(offset, wave, speed):
     """A deck stiff in every way gives them to round-off; one that cannot move sideways gives the lateral ones bit by bit."""
-    track = rb.Track(vertical=wave, lateral=rb.Harmonic(0.4 * wave.amplitude, wave.wavelength, phase=1.0))
+    track = rb.Track(vertical=wave, lateral=rb.Harmonic(0.4 * wave.amplitude, 1.3 * wave.wavelength))
     train, options = rb.Train(CAR), {"speed": speed, "track_offset": offset, "time_step": 0.04 / speed}
     stiff = rb.Beam("stiff", (36.0,), 12e3, 1e24, 1e24, 1e24, polar_inertia=7e4).deck(20, 0.03)
     rigid = cross(train, stiff, track, interaction="rigid", **options).wheel_forces

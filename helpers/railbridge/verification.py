@@ -538,7 +538,7 @@ def _at_rest_rows() -> list[Row]:
     train = Train(planar_car(vehicle("xia2000")))
     deck = beam.deck(20)
     step, speed = 1e4, 1e-6
-    run = cross(train, deck, speed=speed, time_step=step, tail=0.0)
+    run = cross(train, deck, speed=speed, time_step=step, lead_in=0.0, tail=0.0)
     k = round((middle + car.delays[-1] / 2) / (speed * step))
     x = middle + car.delays[-1] / 2 - car.delays
     near = np.minimum(x, beam.length - x)
