@@ -205,7 +205,7 @@ def _headline(loaded: Case, run: Crossing) -> str:
     solved = f"converged in {run.iterations} iterations" if run.converged else f"solved ({run.settings.interaction})"
     x = loaded.points[0]
     value, _ = run.displacement(x).extreme("displacement_z")
-    return f"{solved}, displacement at x = {x:g} m {value * 1e3:.4g} mm"
+    return f"{solved}, displacement at x = {x:g} m is {value * 1e3:.4g} mm"
 
 
 def _write(folder: Path, loaded: Case, run: Crossing, progress: _Progress, with_histories: bool) -> None:

@@ -36,7 +36,9 @@ __all__ = ["Control", "Panel", "deck_modes", "deck_response", "fixed_point", "ir
 
 FALLBACK = "Interactive panel: open this notebook in JupyterLab and run this cell to move its sliders."
 DPI = 90
+LABEL = "9.5em"  # room for the longest label: what does not fit is cut
 PASSES = 4
+LOADS = {"condensed": "condensed loads", "bogies": "bogie loads", "wheels": "wheel loads"}
 
 
 @dataclass(frozen=True)
@@ -93,13 +95,13 @@ class Control:
     def widget(self, value: Any, continuous: bool) -> widgets.Widget:
         """Make the slider or list, showing a value given in SI units."""
         if self.choices:
-            return widgets.Dropdown(options=self.choices, value=value, description=self.label, style={"description_width": "8em"})
+            return widgets.Dropdown(options=self.choices, value=value, description=self.label, style={"description_width": LABEL})
         whole = isinstance(self.step, int)
         low, high, step, value = (v if whole else round(v * self.factor, 9) for v in (self.low, self.high, self.step, value))
         options = {"readout_format": "d" if whole else ".1f" if step >= 0.1 else ".3f", "continuous_update": continuous}
         make = widgets.IntSlider if whole else widgets.FloatSlider
         layout = widgets.Layout(width="27em")
-        style = {"description_width": "8em"}
+        style = {"description_width": LABEL}
         return make(value, min=low, max=high, step=step, description=self.label, layout=layout, style=style, **options)
 
     def value(self, shown: Any) -> Any:
@@ -191,10 +193,10 @@ class Panel:
         self.code_area = widgets.Textarea(rows=14, layout=widgets.Layout(width="100%", max_width="900px", display="none"))
         rows = [widgets.HBox([self.sliders[n], self._asides[n]]) for n in self.controls]
         half = -(-len(rows) // 2)
-        columns = widgets.HBox(
-            [widgets.VBox(rows[:half]), widgets.VBox(rows[half:])], layout=widgets.Layout(flex_flow="row wrap")
-        )
-        buttons = widgets.HBox([self.paper_button, self.code_button])
+        beside = widgets.Layout(flex_flow="row wrap", grid_gap="0 1.5em")
+        columns = widgets.HBox([widgets.VBox(rows[:half]), widgets.VBox(rows[half:])], layout=beside)
+        self.busy = widgets.Label()
+        buttons = widgets.HBox([self.paper_button, self.code_button, self.busy])
         self.widget = widgets.VBox([columns, self.image, self.words, buttons, self.code_area])
 
     @property
@@ -258,6 +260,7 @@ class Panel:
         values = self.values
         for name, control in self.controls.items():
             self._asides[name].value = control.aside(values[name]) if control.aside else ""
+        self.busy.value = "computing ..."
         try:
             case, result = self._solved(*(values[n] for n, c in self.controls.items() if c.paths))
             self._draw(self._axes, case, result, values)
@@ -266,6 +269,8 @@ class Panel:
             self.error = error
             self.words.value = f'<span role="alert" style="color:#b00020"><b>Not possible:</b> {escape(str(error))}</span>'
             return
+        finally:
+            self.busy.value = ""
         self.case, self.summary, self.error = case, summary, None
         self.image.value = self._png()
         self.words.value = f'<span role="status">{escape(summary)}</span>'
@@ -348,7 +353,7 @@ def _iteration(start: int = PASSES) -> Control:
 
 
 def _loads() -> Control:
-    return Control("loads", "loads", ("run.loads",), choices=("condensed", "bogies", "wheels"))
+    return Control("loads", "loads", ("run.loads",), choices=tuple(LOADS))
 
 
 # ---- the cases they start from
@@ -479,8 +484,8 @@ def deck_response(case: Case | None = None) -> Panel:
         x = case.points[0]
         w, t = run.displacement(x).extreme("displacement_z")
         m, at = run.section_forces(x).extreme("moment_vertical")
-        where = f"at x = {x:g} m {1e3 * w:.2f} mm (t = {t:.2f} s) and {m / 1e3:.0f} kN m (t = {at:.2f} s)"
-        return _begin(case, values) + f"{where}, {run.settings.loads} loads under rigid-deck forces."
+        where = f"largest at x = {x:g} m are {1e3 * w:.2f} mm (t = {t:.2f} s) and {m / 1e3:.0f} kN m (t = {at:.2f} s)"
+        return _begin(case, values) + f"{where}, {LOADS[run.settings.loads]} under rigid-deck forces."
 
     line = "run.displacement(x={x:g}).extreme('displacement_z')  # m, s"
     controls = [_speed(), _wavelength(), _amplitude(), _cars(), _loads()]
@@ -493,17 +498,22 @@ def _stages(case: Case) -> dict[int, Crossing]:
     return {i: run.at(i) for i in range(run.iterations + 1)}
 
 
-def _said(stages: Mapping[int, Crossing], case: Case, values: Mapping[str, Any]) -> str:
+def _said(stages: Mapping[int, Crossing], case: Case, values: Mapping[str, Any], plain: bool = False) -> str:
+    """Say the displacement and how far it has settled; plainly, the force against the rigid deck's is all that is said of it."""
     x, i, last = case.points[0], values["iteration"], stages[max(stages)]
     w, first = (1e3 * stages[j].displacement(x).extreme("displacement_z")[0] for j in (i, 0))
     if i == 0:
         change = "rigid-deck forces"
     else:
         deviation = last.deviations.from_rigid[i - 1]
-        measure = f"Eq. 3 {deviation:+.3f} % from the rigid deck" if np.isfinite(deviation) else "no waves to measure Eq. 3 against"
-        change = f"{measure}, change {last.changes[i - 1]:.1e}"
-    passes = f"iteration {i} of {last.iterations} ({last.settings.loads} loads, fixed number of iterations)"
-    return _begin(case, values) + f"at x = {x:g} m {w:.2f} mm at {passes}, {first:.2f} mm at iteration 0; {change}."
+        change = "no waves to measure Eq. 3 against"
+        if np.isfinite(deviation):
+            compared = "the force of car 1 differs from that on a rigid deck by" if plain else "deviation from the rigid deck"
+            change = f"{compared} {deviation:+.{1 if plain else 3}f} % (Eq. 3)"
+        change += "" if plain else f", change of this iteration {last.changes[i - 1]:.1e}"
+    how = LOADS[last.settings.loads] + ("" if plain else ", fixed number of iterations")
+    here = f"displacement at x = {x:g} m is {w:.2f} mm at iteration {i} of {last.iterations} ({how})"
+    return _begin(case, values) + f"{here}, {first:.2f} mm at iteration 0; {change}."
 
 
 def fixed_point(case: Case | None = None) -> Panel:
@@ -539,7 +549,7 @@ def overview(case: Case | None = None) -> Panel:
         plots.deviations(last, axes["deviations"])
 
     def say(case, stages, values):
-        return _said(stages, case, values)
+        return _said(stages, case, values, plain=True)
 
     axes = [["train", "train"], ["force", "displacement"], ["spectrum", "deviations"]]
     controls = [_speed(), _wavelength(), _amplitude(), _cars(), _iteration()]
