@@ -152,7 +152,7 @@ def test_an_iteration_that_overflows_has_not_converged():
     train = rb.Train(rb.vehicle("xia2000_planar"), cars=2)
     track = rb.Track(rb.Harmonic(2e-3, wavelength=10.0))
     with np.errstate(all="ignore"), pytest.raises(rb.NotConvergedError) as caught:
-        rb.cross(train, deck, track, speed=20.0, time_step=2e-3, lead_in=20.0, tail=0.0, max_iterations=300)
+        rb.cross(train, deck, track, speed=20.0, time_step=2e-3, lead_in=0.0, tail=0.0, max_iterations=300)
     assert not caught.value.run.converged and not np.isfinite(caught.value.run.changes[-1])
     assert caught.value.run.iterations < 300
 

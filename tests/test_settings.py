@@ -54,5 +54,7 @@ def test_a_lead_in_too_short_for_its_fade_in_is_refused():
     train, deck = rb.Train(rb.vehicle("xia2000")), rb.deck("viaduct36")
     with pytest.raises(rb.InputError, match=r"run.lead_in = 0.03: .* at least 0.4 m"):
         check(train, deck, track, speed=20.0, time_step=1e-3, lead_in=0.03)
+    # Not given, it is long enough even where 7.5 s are but a few samples.
+    assert check(train, deck, track, speed=1e-6, time_step=1e4).lead_in == pytest.approx(0.2)
     for length in (0.0, 0.4):
         assert check(train, deck, track, speed=20.0, time_step=1e-3, lead_in=length).lead_in == length

@@ -79,15 +79,13 @@ def check(
             allowed = f"the direct solution couples true wheels and the whole motion, so it must be '{needed}'"
             raise InputError(f"run.{name}", value, allowed, "Or use run.interaction = 'iterate'")
     train.condensation(0, loads)
-    lead_in = LEAD_IN_SECONDS * speed if lead_in is None else lead_in
     if relaxation is not None and not isinstance(relaxation, str):
         relaxation = inputs.number("run.relaxation", relaxation, above=0.0, most=1.0, remedy="Or use 'aitken'")
     elif relaxation is not None:
         inputs.choice("run.relaxation", relaxation, ("aitken",))
-    lead_in = inputs.number("run.lead_in", lead_in, least=0.0, most=1e5, unit="m", remedy="0 means level track before the deck")
     tail = inputs.number("run.tail", tail, least=0.0, most=1e4, unit="s")
     step = _time_step(train, deck, track, speed, time_step)
-    _refuse_abrupt_fade(lead_in, speed * step)
+    lead_in = _lead_in(speed, step, lead_in)
     _refuse_size(train, deck, speed, step, lead_in, tail)
     return Settings(
         speed=speed,
@@ -115,12 +113,16 @@ def _track_offset(train: Train | AxleTrain, deck: Deck, given: float | str) -> f
     return offset
 
 
-def _refuse_abrupt_fade(lead_in: float, advance: float) -> None:
-    """Refuse a fade-in (half the lead-in) that the samples do not resolve: its slope, met by chance, would be a blow."""
-    least = 2 * SAMPLES_PER_LENGTH * advance
+def _lead_in(speed: float, step: float, given: float | None) -> float:
+    """Return the run-up; refuse a fade-in (half of it) that the samples do not resolve: its slope, met by chance, is a blow."""
+    least = 2 * SAMPLES_PER_LENGTH * speed * step
+    if given is None:
+        return max(LEAD_IN_SECONDS * speed, least)
+    lead_in = inputs.number("run.lead_in", given, least=0.0, most=1e5, unit="m", remedy="0 means level track before the deck")
     if 0.0 < lead_in < least * (1 - 1e-9):
         few = f"leaves fewer than {SAMPLES_PER_LENGTH} samples for the fade-in; must be 0 or at least {least:.3g} m"
         raise InputError("run.lead_in", lead_in, few, "Leave it out for 7.5 s of travel; 0 means level track before the deck")
+    return lead_in
 
 
 def _refuse_size(train: Train | AxleTrain, deck: Deck, speed: float, step: float, lead_in: float, tail: float) -> None:
