@@ -35,10 +35,11 @@ class Page:
     needs: tuple = ("You need", "Time", "Equations")
 
 
-# The two pages that are no lessons: the door and the comparison.
+# The pages that are no lessons of the usual kind: the door, the comparison, and the long check at the end.
 PAGES = {
     "00": Page((GOALS, EXPLORE, FOUND, REFERENCES), (200, 1200), (5, 80), (), ("You need", "Time")),
     "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3000), (20, 200), (), ("You need", "Time")),
+    "09": Page((GOALS, SYMBOLS, CHECK, EXERCISES, FOUND, REFERENCES), (500, 3000), (20, 270)),
 }
 COURSE = ("00", "01", "02", "03", "04", "05", "06", "08")
 CELL_LINES = 15
