@@ -306,7 +306,7 @@ class FadeIn:
 
     def _factor(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         if self.lead_in == 0.0:
-            return np.where(x >= 0.0, 1.0, 0.0), np.zeros_like(x)
+            return np.where(x >= -1e-9, 1.0, 0.0), np.zeros_like(x)
         ramp = self.lead_in / 2
         factor, rate = (x > -ramp).astype(float), np.zeros_like(x)
         fading = (x > -self.lead_in) & (x <= -ramp)
