@@ -6,11 +6,16 @@ import re
 import shutil
 import subprocess
 import sys
+from base64 import b64decode, b64encode
+from io import BytesIO
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import nbformat
+import numpy as np
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
+from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[1]
 TEMPLATE = ROOT / "notebooks" / "_template.ipynb"
@@ -147,3 +152,18 @@ def test_a_changed_digit_and_a_stripped_notebook_fail(tmp_path):
     assert [name for name, _ in failed].count("changed") == 1
     assert "Cell outputs differ" in done.stdout
     assert "stored without output" in done.stdout
+
+
+def test_pictures_are_stored_small_and_look_the_same(tool):
+    figure, ax = plt.subplots()
+    ax.plot(np.sin(np.linspace(0.0, 60.0, 500)), "C1")
+    whole = BytesIO()
+    figure.savefig(whole, format="png", dpi=100)
+    plt.close(figure)
+    stored = tool.with_few_colours(b64encode(whole.getvalue()).decode())
+    assert len(b64decode(stored)) < 0.6 * len(whole.getvalue())
+    before, after = (
+        np.asarray(Image.open(BytesIO(b)).convert("RGB"), dtype=float) for b in (whole.getvalue(), b64decode(stored))
+    )
+    assert before.shape == after.shape
+    assert np.abs(before - after).mean() < 1.0
