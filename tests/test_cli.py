@@ -261,7 +261,12 @@ def test_what_stops_in_the_middle_leaves_nothing(here, capsys, monkeypatch, erro
 def test_ctrl_c_stops_the_command_with_130(here):
     long = ["--set", "train.cars=40", "--set", "run.time_step=1e-3", "--set", "run.interaction=direct"]
     program = [sys.executable, "-m", "railbridge.cli", "run", "case.toml", "--out", "r", *long]
-    with subprocess.Popen(program, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
+
+    def listen():
+        # A shell that starts the tests in the background has SIGINT ignored, and children inherit that.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+    with subprocess.Popen(program, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=listen) as process:
         deadline = time.monotonic() + 60
         while not any(p.name.startswith(".railbridge-") for p in here.iterdir()) and time.monotonic() < deadline:
             time.sleep(0.05)
