@@ -42,7 +42,7 @@ class Elements:
 
 
 def crossing(car, beam, speed, wave, elements=20, step=2.5e-4, tail=0.2):
-    """Time, mid-span displacement, mid-span moment and axle forces of a plane car on a beam (see `verification.Plane`).
+    """Time, mid-span displacement, mid-span moment and axle forces of a plane car on a beam (see `references.Plane`).
 
     The moment is the end moment of the element left of mid-span, its own loads and inertia taken off.
     """

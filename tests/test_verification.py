@@ -5,7 +5,8 @@ import pytest
 
 from newmark import crossing
 from railbridge import verification
-from railbridge.verification import FORCE, NEWMARK, WAVE, car_in_plane, cases, force_beam, moving_force, run_car, run_force
+from railbridge.references import FORCE, car_in_plane, force_beam, moving_force
+from railbridge.verification import NEWMARK, WAVE, cases, run_car, run_force
 
 
 def label(row):
