@@ -21,12 +21,13 @@ from .case import Case, case
 from .checks import compared
 from .crossing import Crossing, NotConvergedError, cross
 from .deck import Deck, History, rayleigh, rayleigh_ratio
+from .fleet import planar_car, sprung_mass, vehicle
 from .inputs import InputError
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .summary import summarize
 from .track import Harmonic, Level, Notch, Rails, Table, Track
 from .train import AxleTrain, Train, steady_forces
-from .vehicle import Body, Spring, Vehicle, planar_car, sprung_mass, vehicle
+from .vehicle import Body, Spring, Vehicle
 
 __version__ = "0.1.0"
 

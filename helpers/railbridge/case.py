@@ -20,12 +20,13 @@ import numpy as np
 from . import beam, inputs
 from .crossing import Crossing, cross
 from .deck import Deck
+from .fleet import vehicle
 from .inputs import InputError
 from .settings import Settings, check
 from .summary import summarize
 from .track import Harmonic, Irregularity, Level, Notch, Rails, Table, Track
 from .train import AxleTrain, Train
-from .vehicle import Vehicle, vehicle
+from .vehicle import Vehicle
 
 __all__ = ["Case", "case"]
 

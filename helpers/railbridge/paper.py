@@ -23,9 +23,9 @@ from . import inputs
 from .case import Case, case
 from .crossing import Crossing
 from .deck import rayleigh, rayleigh_ratio
+from .fleet import vehicle
 from .track import Harmonic, Track
 from .train import LOADS, steady_forces
-from .vehicle import vehicle
 
 __all__ = [
     "READING", "SCENARIOS", "TABLE2_DECK", "TABLE2_VEHICLE", "TABLE3", "TABLE4", "Row", "bounce_amplitude", "compare", "frame",

@@ -16,10 +16,10 @@ from scipy.optimize import brentq, minimize_scalar
 from .beam import Beam
 from .crossing import Crossing, cross
 from .deck import Deck, rayleigh
+from .fleet import planar_car, sprung_mass, vehicle
 from .references import FORCE, car_in_plane, coupled, force_beam, moving_force, yang_yau
 from .track import Harmonic, Track
 from .train import AxleTrain, Train
-from .vehicle import planar_car, sprung_mass, vehicle
 
 __all__ = [
     "NEWMARK", "ConvergenceRow", "Row", "cases", "convergence_with_modes", "frame", "report", "run_car", "run_force",
