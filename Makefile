@@ -11,10 +11,10 @@ BIN := .venv/bin
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help env lab test reproduce notebooks lint format bench lock clean
+.PHONY: help env lab app test test-browser reproduce identify notebooks site lint format bench lock clean
 
 help:  ## list these targets
-	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 18
+	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 21
 
 env:  ## create or update .venv (every target below does this first)
 	@$(PYTHON) tools/bootstrap.py
@@ -22,14 +22,26 @@ env:  ## create or update .venv (every target below does this first)
 lab: env  ## open JupyterLab on the first notebook
 	$(BIN)/python -m jupyterlab --LabApp.default_url=/lab/tree/notebooks/00_start_here.ipynb $(ARGS)
 
+app: env  ## show the explorer of notebook 00 as a web page, for the projector
+	$(BIN)/python tools/app.py $(ARGS)
+
 test: env  ## run all tests: unit, property and notebook tests
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist loadscope $(ARGS)
+
+test-browser: env  ## open every panel notebook and the app in a real Chromium and use them
+	$(BIN)/python -m pytest tests/browser $(ARGS)
 
 reproduce: env  ## run the paper's case: printed, ours, difference; writes build/reproduction.json
 	$(BIN)/python -m railbridge.paper $(ARGS)
 
+identify: env  ## fit the dimensions of the paper's missing Figure 6 (up to 10 minutes); stores data/identification
+	$(BIN)/python tools/identify.py $(ARGS)
+
 notebooks: env  ## execute all notebooks and store their outputs (the only way outputs are stored)
 	$(BIN)/python tools/notebooks.py $(ARGS)
+
+site: env  ## build a static site of all notebooks in build/site, readable without network
+	$(BIN)/python tools/site.py $(ARGS)
 
 lint: env  ## check style, formatting and the layers of the package
 	$(BIN)/python tools/lint.py $(ARGS)

@@ -31,7 +31,8 @@ def asks_of_pyproject():
 
 def asks_of_conda():
     """{package: version range}"""
-    asked = [re.fullmatch(r"([\w.-]+)\s*(.*)", text).groups() for text in CONDA["dependencies"]]
+    asks = [text for text in CONDA["dependencies"] if isinstance(text, str)] + CONDA["dependencies"][-1]["pip"]
+    asked = [re.fullmatch(r"([\w.-]+)\s*(.*)", text).groups() for text in asks]
     return {canonicalize_name(name): SpecifierSet(versions) for name, versions in asked}
 
 
@@ -73,7 +74,7 @@ def test_installed_version_is_within_the_asked_range(name):
 def test_lock_names_versions_and_nothing_else():
     """No addresses, hashes or options: every index serves it."""
     for line in LOCK:
-        assert re.fullmatch(r"[a-z0-9.-]+==[0-9a-z.+!]+( ; [\w .<>='()!]+)?", line), line
+        assert re.fullmatch(r"[a-z0-9.-]+==[0-9a-z.+!]+( ; [\w .<>='()!*]+)?", line), line
     names = [line.split("==")[0] for line in LOCK]
     assert names == sorted(names)
 

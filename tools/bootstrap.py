@@ -23,7 +23,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 OLDEST_PYTHON = "3.11"
-EXTRAS = ("test", "dev")
+EXTRAS = ("fem", "app", "site", "test", "dev")
 
 # pip's settings -> uv's environment variables: uv does not read pip's configuration, where people name their mirrors.
 UV_NAME = {

@@ -16,11 +16,12 @@ Everything is SI inside: m, kg, s, N. See the README for the conventions.
 
 from importlib import import_module as _import_module
 
-from .beam import Beam, Bearing, deck, deck_from_table
+from .beam import Beam, Bearing
 from .case import Case, case
 from .checks import compared
 from .crossing import Crossing, NotConvergedError, cross
 from .deck import Deck, History, rayleigh, rayleigh_ratio
+from .decks import deck, deck_from_table
 from .fleet import planar_car, sprung_mass, vehicle
 from .inputs import InputError
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent

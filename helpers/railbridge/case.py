@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from . import beam, inputs
+from . import decks, inputs
 from .crossing import Crossing, cross
 from .deck import Deck
 from .fleet import vehicle
@@ -200,7 +200,7 @@ def _deck(raw: Any) -> Deck:
 @lru_cache(maxsize=16)
 def _cached_deck(name: str, content: str) -> Deck:
     """Make a deck once: a slider that changes the speed must not assemble it again."""
-    return beam.deck_from_table(name, json.loads(content))
+    return decks.deck_from_table(name, json.loads(content))
 
 
 @lru_cache(maxsize=16)
