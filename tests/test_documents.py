@@ -9,14 +9,14 @@ import yaml
 
 ROOT = Path(__file__).resolve().parents[1]
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
-TARGETS = dict(re.findall(r"^([a-z]+):[^#\n]*## .*\n((?:\t.*\n)*)", MAKEFILE, re.MULTILINE))
+TARGETS = dict(re.findall(r"^([a-z-]+):[^#\n]*## .*\n((?:\t.*\n)*)", MAKEFILE, re.MULTILINE))
 DOCUMENTS = ("README.md", "CONTRIBUTING.md")
 
 
 def rows_of_commands(name):
     """[(make target, plain command)] from a document's tables."""
     text = (ROOT / name).read_text(encoding="utf-8")
-    return re.findall(r"^\| `make ([a-z]+)` \| `([^`]+)`", text, re.MULTILINE)
+    return re.findall(r"^\| `make ([a-z-]+)` \| `([^`]+)`", text, re.MULTILINE)
 
 
 def test_readme_gives_a_plain_command_for_every_target():
