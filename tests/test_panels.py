@@ -107,11 +107,11 @@ def test_an_error_is_said_in_words_and_the_next_value_recovers(all_panels):
     panel.sliders["second_frequency"].value = 7.0
     panel.sliders["first_frequency"].value = 7.0
     assert isinstance(panel.error, rb.InputError)
-    assert "Not possible" in panel.words.value and "two different frequencies" in panel.words.value
+    assert "Not possible" in panel.trouble.value and "two different frequencies" in panel.trouble.value
     with pytest.raises(rb.InputError, match="two different frequencies"):
         panel.set(mode=2)
     panel.reset()
-    assert panel.error is None
+    assert panel.error is None and panel.trouble.value == ""
     assert panel.summary == words and panel.summary in panel.words.value
     assert np.array_equal(picture(panel).shape, imread(io.BytesIO(image), format="png").shape)
 

@@ -185,7 +185,11 @@ class Panel:
         for slider in self.sliders.values():
             slider.observe(lambda _: self._refresh(), names="value")
         self.image = widgets.Image(format="png", layout=widgets.Layout(width="100%", max_width="900px"))
+        self.image.add_class("rb-picture")
         self.words = widgets.HTML()
+        self.words.add_class("rb-summary")
+        self.trouble = widgets.HTML()
+        self.trouble.add_class("rb-error")
         self.paper_button = widgets.Button(description="Paper case", tooltip="All controls back to where they started")
         self.paper_button.on_click(lambda _: self.reset())
         self.code_button = widgets.Button(description="Show this as code", tooltip="Python lines that compute this very case")
@@ -197,7 +201,8 @@ class Panel:
         columns = widgets.HBox([widgets.VBox(rows[:half]), widgets.VBox(rows[half:])], layout=beside)
         self.busy = widgets.Label()
         buttons = widgets.HBox([self.paper_button, self.code_button, self.busy])
-        self.widget = widgets.VBox([columns, self.image, self.words, buttons, self.code_area])
+        self.widget = widgets.VBox([columns, self.image, self.words, self.trouble, buttons, self.code_area])
+        self.widget.add_class("rb-panel")
 
     @property
     def values(self) -> dict[str, Any]:
@@ -267,13 +272,15 @@ class Panel:
             summary = self._say(case, result, values)
         except (ValueError, RuntimeError, ArithmeticError) as error:
             self.error = error
-            self.words.value = f'<span role="alert" style="color:#b00020"><b>Not possible:</b> {escape(str(error))}</span>'
+            said = f"<b>Not possible:</b> {escape(str(error))} (The picture shows the last possible case.)"
+            self.trouble.value = f'<span role="alert" style="color:#b00020">{said}</span>'
             return
         finally:
             self.busy.value = ""
         self.case, self.summary, self.error = case, summary, None
         self.image.value = self._png()
         self.words.value = f'<span role="status">{escape(summary)}</span>'
+        self.trouble.value = ""
         if self.code_area.layout.display != "none":
             self.code_area.value = self.code
 
