@@ -26,10 +26,11 @@ class NotConvergedError(RuntimeError):
     """The iteration did not settle within the allowed passes; `run` holds everything computed so far."""
 
     def __init__(self, run: Crossing) -> None:
+        other = "interaction = 'direct'" if run.settings.loads == "wheels" else "loads = 'wheels'"
         super().__init__(
             f"run.max_iterations = {run.iterations}: not converged, the last change was {run.changes[-1]:.2g} "
             f"and must be below run.tolerance = {run.settings.tolerance:g} twice in a row. Try run.relaxation = 0.5 or "
-            "'aitken', more run.max_iterations, or loads = 'wheels'."
+            f"'aitken', more run.max_iterations, or {other}."
         )
         self.run = run
 
