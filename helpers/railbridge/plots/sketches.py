@@ -23,7 +23,7 @@ __all__ = ["train_on_deck", "vehicle", "vehicle_mode"]
 
 _WHEEL, _GAP, _LOW, _HIGH = 0.46, 0.42, 0.34, 2.3  # m: wheel radius, spring length, height of a low and of the top body
 _BODY, _MOVED = "#e8eef4", LOOKS["displacement_z"].colour
-_VIEWS = {"side": (0, 2), "top": (0, 1), "front": (1, 2)}
+VIEWS = {"side": (0, 2), "top": (0, 1), "front": (1, 2)}
 _DOES = {"y": "sways", "z": "bounces", "roll": "rolls", "pitch": "pitches", "yaw": "yaws"}
 
 
@@ -42,7 +42,7 @@ class _Box:
         return result
 
 
-def _levels(v: Vehicle) -> dict[str, int]:
+def body_levels(v: Vehicle) -> dict[str, int]:
     """How many springs a body stands above the rail."""
     level = {"rail": 0}
     while len(level) <= len(v.bodies):
@@ -57,8 +57,8 @@ def _levels(v: Vehicle) -> dict[str, int]:
     return level
 
 
-def _boxes(v: Vehicle) -> dict[str, _Box]:
-    level = _levels(v)
+def body_boxes(v: Vehicle) -> dict[str, _Box]:
+    level = body_levels(v)
     top = max(level.values())
     boxes = {}
     for body in v.bodies:
@@ -74,7 +74,7 @@ def _boxes(v: Vehicle) -> dict[str, _Box]:
     return boxes
 
 
-def _ends(s: Spring, boxes: dict[str, _Box], level: dict[str, int]) -> list[tuple[str, np.ndarray]]:
+def spring_ends(s: Spring, boxes: dict[str, _Box], level: dict[str, int]) -> list[tuple[str, np.ndarray]]:
     """Lower and upper end of a spring as drawn, each with the body it is tied to."""
     low, high = sorted((s.from_, s.to), key=lambda n: level[n])
     x, y, _ = s.at
@@ -83,7 +83,7 @@ def _ends(s: Spring, boxes: dict[str, _Box], level: dict[str, int]) -> list[tupl
     return [(low, np.array([x, y, foot])), (high, np.array([x, y, head]))]
 
 
-def _moved(points: np.ndarray, name: str, boxes: dict[str, _Box], motion: dict[str, np.ndarray]) -> np.ndarray:
+def moved(points: np.ndarray, name: str, boxes: dict[str, _Box], motion: dict[str, np.ndarray]) -> np.ndarray:
     """Move points tied to a body by u + theta x r."""
     if name not in motion:
         return points
@@ -91,7 +91,7 @@ def _moved(points: np.ndarray, name: str, boxes: dict[str, _Box], motion: dict[s
     return points + np.array([0.0, y, z]) + np.cross(np.array(rotation), points - boxes[name].centre)
 
 
-def _zigzag(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+def zigzag(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """A spring from a to b, shape (10, 2)."""
     along = np.array([0, 0.18, 0.26, 0.42, 0.58, 0.74, 0.82, 1.0])
     across = 0.11 * np.array([0, 0, 1, -1, 1, -1, 0, 0])
@@ -123,17 +123,17 @@ def _figure_axes(axes: Sequence[Axes] | None, v: Vehicle) -> list[Axes]:
     layout = [["side", "front"], ["top", "."]] if long else [["side", "top", "front"]]
     ratios = {"width_ratios": [5.0, 1.15], "height_ratios": [1.5, 1.0]} if long else {}
     _, made = plt.subplot_mosaic(layout, figsize=(WIDTH, 4.4 if long else 3.4), layout="compressed", **ratios)
-    return [made[view] for view in _VIEWS]
+    return [made[view] for view in VIEWS]
 
 
 def _draw(axes: Sequence[Axes], v: Vehicle, motion: dict[str, np.ndarray] | None, look: dict) -> None:
     """Draw bodies, springs and wheels in all three views."""
-    boxes, level = _boxes(v), _levels(v)
+    boxes, level = body_boxes(v), body_levels(v)
     wheels = sorted({(round(c.x, 6), round(c.y, 6)) for c in v.contacts})
-    for ax, (view, plane) in zip(axes, _VIEWS.items(), strict=True):
+    for ax, (view, plane) in zip(axes, VIEWS.items(), strict=True):
         a, b = plane
         for body in sorted(v.bodies, key=lambda body: level[body.name]):
-            corners = _moved(boxes[body.name].corners(plane), body.name, boxes, motion or {})[:, plane]
+            corners = moved(boxes[body.name].corners(plane), body.name, boxes, motion or {})[:, plane]
             filled = look["fill"] if view != "top" or level[body.name] < max(level.values()) else "none"
             ax.add_patch(Polygon(corners, fc=filled, ec=look["edge"], lw=1.4, zorder=2 + 0.1 * level[body.name]))
         if view == "top":
@@ -142,9 +142,9 @@ def _draw(axes: Sequence[Axes], v: Vehicle, motion: dict[str, np.ndarray] | None
                     ax.add_patch(Polygon(np.array([x, y]) + [[-0.4, -0.07], [0.4, -0.07], [0.4, 0.07], [-0.4, 0.07]], fc=GREY))
             continue
         for s in v.springs:
-            (low, foot), (high, head) = _ends(s, boxes, level)
-            foot, head = (_moved(p[None], n, boxes, motion or {})[0, plane] for n, p in ((low, foot), (high, head)))
-            ax.plot(*_zigzag(foot, head).T, color=look["edge"], lw=0.9, zorder=3)
+            (low, foot), (high, head) = spring_ends(s, boxes, level)
+            foot, head = (moved(p[None], n, boxes, motion or {})[0, plane] for n, p in ((low, foot), (high, head)))
+            ax.plot(*zigzag(foot, head).T, color=look["edge"], lw=0.9, zorder=3)
             if not motion and look["dampers"] and any(s.damping):
                 _damper(ax, foot, head, look["edge"])
         if not motion:
@@ -155,9 +155,9 @@ def _draw(axes: Sequence[Axes], v: Vehicle, motion: dict[str, np.ndarray] | None
             ax.axhline(0.0, color="k", lw=1.2)
 
 
-def _extent(v: Vehicle) -> np.ndarray:
+def extent(v: Vehicle) -> np.ndarray:
     """Half length, half width and height that a vehicle takes on the page, m."""
-    boxes = _boxes(v).values()
+    boxes = body_boxes(v).values()
     return np.array(
         [max(abs(b.centre[i]) + b.half[i] for b in boxes) for i in range(2)] + [max(b.centre[2] + b.half[2] for b in boxes)]
     )
@@ -165,9 +165,9 @@ def _extent(v: Vehicle) -> np.ndarray:
 
 def _frame(axes: Sequence[Axes], v: Vehicle, below: float, room: float) -> None:
     """Give the three views one scale, with room (m) around the vehicle and below the rail."""
-    half_x, half_y, height = _extent(v) + room
+    half_x, half_y, height = extent(v) + room
     limits = {0: (-half_x, half_x), 1: (-half_y, half_y), 2: (-below, height)}
-    for ax, (view, (a, b)) in zip(axes, _VIEWS.items(), strict=True):
+    for ax, (view, (a, b)) in zip(axes, VIEWS.items(), strict=True):
         ax.set(xlim=limits[a], ylim=limits[b], aspect="equal")
         ax.set_xlabel("xyz"[a] + " (m)")
         ax.set_ylabel("y (m)" if view == "top" else "height, schematic" if view == "side" else "")
@@ -198,7 +198,7 @@ def vehicle(vehicle: Vehicle, axes: Sequence[Axes] | None = None) -> np.ndarray:
     _draw(drawn, vehicle, None, {"fill": _BODY, "edge": "#34495e", "dampers": True})
     long = vehicle.length > 12
     _frame(drawn, vehicle, 2.7 if long else 0.6, 0.9 if long else 0.4)
-    boxes = _boxes(vehicle)
+    boxes = body_boxes(vehicle)
     for body in vehicle.bodies:
         x, _, z = boxes[body.name].centre
         mass = f"{body.mass / 1e3:.4g} t"
@@ -246,27 +246,37 @@ def vehicle_mode(vehicle: Vehicle, mode: int, axes: Sequence[Axes] | None = None
     InputError
         No such mode.
     """
-    modes = vehicle.modes()
-    i = inputs.integer("mode", mode, least=1, most=len(modes.names)) - 1
-    boxes = _boxes(vehicle)
-    shape = dict(zip(modes.labels, modes.shapes[:, i], strict=True))
-    motion = {b.name: np.array([shape.get(f"{b.name} {f}", 0.0) for f in FREEDOMS]) for b in vehicle.bodies}
-    corners = {n: np.concatenate([box.corners(p) for p in _VIEWS.values()]) for n, box in boxes.items()}
-    largest = max(np.linalg.norm(_moved(c, n, boxes, motion) - c, axis=1).max() for n, c in corners.items())
-    leading = max(shape.values(), key=abs)
-    factor = (scale or (0.65 if vehicle.length > 12 else 0.35)) / largest * np.sign(leading)
+    modes, motion = mode_motion(vehicle, mode, scale)
+    i = mode - 1
     drawn = _figure_axes(axes, vehicle)
     _draw(drawn, vehicle, None, {"fill": "none", "edge": PALE, "dampers": False})
-    _draw(drawn, vehicle, {n: factor * m for n, m in motion.items()}, {"fill": "#0072B218", "edge": _MOVED})
+    _draw(drawn, vehicle, motion, {"fill": "#0072B218", "edge": _MOVED})
     _frame(drawn, vehicle, 0.3, 0.9 if vehicle.length > 12 else 0.5)
     title = f"mode {mode}: {modes.frequencies_hz[i]:.4g} Hz, {modes.names[i]}"
     drawn[0].set_title(
-        f"{title}\n{fill(_what_moves(vehicle, modes, i), 78 if vehicle.length > 12 else 36)}", loc="left", fontsize="medium"
+        f"{title}\n{fill(what_moves(vehicle, modes, i), 78 if vehicle.length > 12 else 36)}", loc="left", fontsize="medium"
     )
     return np.array(drawn, dtype=object)
 
 
-def _what_moves(v: Vehicle, modes: Modes, i: int) -> str:
+def mode_motion(vehicle: Vehicle, mode: int, scale: float | None = None) -> tuple[Modes, dict[str, np.ndarray]]:
+    """Return a vehicle's natural modes, and one of them as drawn: y, z, roll, pitch, yaw of every body by its name.
+
+    The largest motion of any drawn corner is `scale` (m; default 0.65, 0.35 for small vehicles); the leading freedom is positive.
+    """
+    modes = vehicle.modes()
+    i = inputs.integer("mode", mode, least=1, most=len(modes.names)) - 1
+    boxes = body_boxes(vehicle)
+    shape = dict(zip(modes.labels, modes.shapes[:, i], strict=True))
+    motion = {b.name: np.array([shape.get(f"{b.name} {f}", 0.0) for f in FREEDOMS]) for b in vehicle.bodies}
+    corners = {n: np.concatenate([box.corners(p) for p in VIEWS.values()]) for n, box in boxes.items()}
+    largest = max(np.linalg.norm(moved(c, n, boxes, motion) - c, axis=1).max() for n, c in corners.items())
+    leading = max(shape.values(), key=abs)
+    factor = (scale or (0.65 if vehicle.length > 12 else 0.35)) / largest * np.sign(leading)
+    return modes, {n: factor * m for n, m in motion.items()}
+
+
+def what_moves(v: Vehicle, modes: Modes, i: int) -> str:
     energy = np.diag(v.mass_matrix) * modes.shapes[:, i] ** 2
     share = energy / energy.sum()
     parts = []
