@@ -1,6 +1,7 @@
 r"""Beams in three dimensions: elements, bearings, named modes; a way to make a `Deck`.
 
-Deck files are read in `decks`. The elements themselves, their modes and influence lines are in `mesh`.
+Deck files are read in `decks`. The elements are in `elements`, their assembly and modes in `mesh`, influence lines in
+`influence`, and what a bearing holds in `bearings`.
 """
 
 from __future__ import annotations
@@ -11,28 +12,24 @@ from functools import cached_property
 import numpy as np
 
 from . import inputs
+from .bearings import FARTHEST, FIXITIES, Bearing, free_motions
 from .deck import Deck, rayleigh_ratio
+from .elements import FIELDS
+from .influence import BeamRecovery
 from .inputs import InputError
-from .mesh import FIELDS, BeamModes, BeamRecovery, Mesh
+from .mesh import BeamModes, Mesh
 
 __all__ = ["FIXITIES", "Beam", "BeamModes", "Bearing"]
 
 _SHORTEST = 1e-3
 """Shortest span or distance of bearings as a share of the length: the deck's lowest frequency then keeps five digits."""
 
-FIXITIES = ("x", "y", "z", "roll", "pitch", "yaw")
+
+_SWITCHES = ("shear_stiffness_vertical", "shear_stiffness_lateral", "rotary_inertia_vertical", "rotary_inertia_lateral")
 
 
 def _where(name: str) -> str:
     return "deck" if name == "deck" else f"deck {name}"
-
-
-@dataclass(frozen=True)
-class Bearing:
-    """A bearing line across the deck at x (m) and the freedoms it holds: a subset of x y z roll pitch yaw."""
-
-    x: float
-    fixed: tuple[str, ...] = ("y", "z", "roll")
 
 
 @dataclass(frozen=True)
@@ -43,7 +40,7 @@ class Beam:
     ----------
     name : str
     spans : tuple of float
-        m; bearing lines stand at their ends. Several spans are continuous.
+        m; bearing lines stand at their ends.
     mass : float
         kg/m.
     bending_stiffness_vertical : float
@@ -53,15 +50,25 @@ class Beam:
     polar_inertia : float or None
         Mass moment of inertia about the axis per metre, kg m.
     bearings : tuple of Bearing
-        Default: y, z and roll held at every bearing line, x at the first.
+        Default: y, z and roll held at both ends of every span, x at its first (of a continuous deck: at the very first).
+        Kept with one bearing under each span where simple spans meet.
     elements : int or None
         Number of elements, at least 2 between neighbouring bearings; default about 40, at least 12 a span.
+    continuous : bool
+        Whether the deck runs through over the inner bearing lines. False: a row of simple spans, each held by itself.
+    shear_stiffness_vertical, shear_stiffness_lateral : float or None
+        kGA, N. None: no shear flexibility (Euler-Bernoulli).
+    rotary_inertia_vertical, rotary_inertia_lateral : float or None
+        m r^2 of the section as it turns in vertical and in lateral bending, kg m. None: left out.
+    centroid_height : float
+        Centroid above the deck axis, which runs through the shear centres, m. Axial force and mass are there: the mass couples
+        lateral bending and torsion. `polar_inertia` is that about the centroid.
 
     Raises
     ------
     InputError
-        Spans, mass or stiffness not positive, a bearing off the deck or too close to another, or a beam that can move as a
-        rigid body.
+        Spans, mass or stiffness not positive, a bearing off the deck, twice in one place or too close to another, one whose
+        place makes the deck move in a way it has no stiffness for, or a beam that can move as a rigid body.
     """
 
     name: str
@@ -74,6 +81,12 @@ class Beam:
     polar_inertia: float | None = None
     bearings: tuple[Bearing, ...] = ()
     elements: int | None = None
+    continuous: bool = True
+    shear_stiffness_vertical: float | None = None
+    shear_stiffness_lateral: float | None = None
+    rotary_inertia_vertical: float | None = None
+    rotary_inertia_lateral: float | None = None
+    centroid_height: float = 0.0
 
     def __post_init__(self) -> None:
         where = _where(self.name)
@@ -89,23 +102,29 @@ class Beam:
         if (self.torsional_stiffness is None) != (self.polar_inertia is None):
             missing = "polar_inertia" if self.polar_inertia is None else "torsional_stiffness"
             raise InputError(f"{where}: {missing}", None, "is missing", "Twist needs torsional_stiffness and polar_inertia")
+        for key in _SWITCHES:
+            if getattr(self, key) is not None:
+                inputs.number(f"{where}: {key}", getattr(self, key), above=0.0)
+                if key.endswith("lateral") and self.bending_stiffness_lateral is None:
+                    raise InputError(f"{where}: bending_stiffness_lateral", None, "is missing", f"{key} goes with it")
+        inputs.number(f"{where}: centroid_height", self.centroid_height, least=-FARTHEST, most=FARTHEST, unit="m")
+        if not isinstance(self.continuous, bool):
+            raise InputError(f"{where}: continuous", self.continuous, "must be true or false")
         if not self.bearings:
-            lines = np.concatenate([[0.0], np.cumsum(spans)])
-            held = tuple(
-                Bearing(x, ("y", "z", "roll", "x") if i == 0 else ("y", "z", "roll")) for i, x in enumerate(lines.tolist())
-            )
-            object.__setattr__(self, "bearings", held)
+            object.__setattr__(self, "bearings", self._usual_bearings())
         for i, bearing in enumerate(self.bearings, start=1):
             here = f"{where}: bearing {i}"
             slack = 1e-6 * self.length
-            inputs.number(f"{here}: x", bearing.x, least=-slack, most=self.length + slack, unit="m")
-            for f in bearing.fixed:
-                inputs.choice(f"{here}: fixed", f, FIXITIES)
-        object.__setattr__(self, "bearings", tuple(self._on_line(b) for b in self.bearings))
+            remedy = "x runs along the deck from its start"
+            inputs.number(f"{here}: x", bearing.x, least=-slack, most=self.length + slack, unit="m", remedy=remedy)
+            bearing.check(here)
+            self._refuse_missing_stiffness(here, bearing)
+        under = [part for i, b in enumerate(self.bearings, start=1) for part in self._under_spans(f"{where}: bearing {i}", b)]
+        object.__setattr__(self, "bearings", tuple(under))
         self._refuse_close_lines(where)
         if self.elements is not None:
             inputs.integer(f"{where}: elements", self.elements, least=2, most=400)
-        self._refuse_mechanism()
+        self._refuse_mechanism(where)
 
     @property
     def length(self) -> float:
@@ -123,23 +142,94 @@ class Beam:
         )
         return tuple(f for f, s in zip(FIELDS, stiffness, strict=True) if s is not None)
 
-    def _on_line(self, bearing: Bearing) -> Bearing:
-        """Move a bearing that misses the end of a span by rounding only onto it, so that both are one node."""
-        lines = np.concatenate([[0.0], np.cumsum(self.spans)])
-        nearest = float(lines[np.argmin(np.abs(lines - bearing.x))])
-        return replace(bearing, x=nearest) if abs(nearest - bearing.x) <= 1e-6 * self.length else bearing
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """Places where simple spans meet, m; none in a continuous deck."""
+        return () if self.continuous else tuple(np.cumsum(self.spans)[:-1].tolist())
+
+    def piece(self, bearing: Bearing) -> int:
+        """Return which simple span (from 0) a bearing carries; 0 in a continuous deck."""
+        if bearing.span is not None:
+            return bearing.span - 1
+        return int(np.searchsorted(self.joints, bearing.x))
+
+    def stiffness_of(self, name: str) -> float:
+        """Return the stiffness of a field: EA, E I_z, E I_y or G J."""
+        return {
+            "axial": self.axial_stiffness,
+            "lateral": self.bending_stiffness_lateral,
+            "vertical": self.bending_stiffness_vertical,
+            "torsion": self.torsional_stiffness,
+        }[name]
+
+    def shear_flexibility(self, name: str) -> float:
+        """Return E I / kGA of a bending field, m2; 0 where it is rigid in shear, and of the other fields."""
+        shear = {"lateral": self.shear_stiffness_lateral, "vertical": self.shear_stiffness_vertical}.get(name)
+        return 0.0 if shear is None else self.stiffness_of(name) / shear
+
+    def rotary_inertia(self, name: str) -> float:
+        """Return m r^2 of a bending field, kg m; 0 where it is left out, and of the other fields."""
+        return {"lateral": self.rotary_inertia_lateral, "vertical": self.rotary_inertia_vertical}.get(name) or 0.0
+
+    @cached_property
+    def _span_ends(self) -> np.ndarray:
+        return np.concatenate([[0.0], np.cumsum(self.spans)])
+
+    def _usual_bearings(self) -> tuple[Bearing, ...]:
+        usual, ends = ("y", "z", "roll"), self._span_ends.tolist()
+        if self.continuous:
+            return tuple(Bearing(x, (*usual, "x") if i == 0 else usual) for i, x in enumerate(ends))
+        pairs = zip(ends[:-1], ends[1:], strict=True)
+        return tuple(
+            b for i, (a, e) in enumerate(pairs, 1) for b in (Bearing(a, (*usual, "x"), span=i), Bearing(e, usual, span=i))
+        )
+
+    def _under_spans(self, here: str, bearing: Bearing) -> list[Bearing]:
+        """Move a bearing that misses the end of a span by rounding only onto it; put one under each span where two meet."""
+        nearest = int(np.argmin(np.abs(self._span_ends - bearing.x)))
+        at_end = abs(self._span_ends[nearest] - bearing.x) <= 1e-6 * self.length
+        if at_end:
+            bearing = replace(bearing, x=float(self._span_ends[nearest]))
+        meeting = (nearest, nearest + 1) if at_end and bearing.x in self.joints else ()
+        if bearing.span is None:
+            return [replace(bearing, span=span) for span in meeting] or [bearing]
+        if bearing.span not in meeting:
+            allowed = (
+                f"must be {meeting[0]} or {meeting[1]}, which meet there"
+                if meeting
+                else "can only be told where simple spans meet"
+            )
+            raise InputError(f"{here}: span", bearing.span, allowed, "Leave span out elsewhere")
+        return [bearing]
 
     @cached_property
     def _lines(self) -> np.ndarray:
         """Ends of spans and bearings, m, ascending: places that must be nodes."""
-        return np.unique(np.concatenate([[0.0], np.cumsum(self.spans), [b.x for b in self.bearings]]))
+        return np.unique(np.concatenate([self._span_ends, [b.x for b in self.bearings]]))
+
+    def _refuse_missing_stiffness(self, here: str, bearing: Bearing) -> None:
+        """Refuse a bearing that would hold the deck's turning only because the shift that goes with it is left out."""
+        keys = {"x": ("axial", "axial_stiffness"), "y": ("lateral", "bending_stiffness_lateral")}
+        turns = {"axial": (), "lateral": ("yaw",), "vertical": ("pitch",), "torsion": ("roll",)}
+        turning = [t for name in self.fields for t in turns[name]]
+        places = {"roll": 3, "yaw": 4, "pitch": 5}
+        for freedom, (name, key) in keys.items():
+            row = bearing.row(freedom, self.centroid_height)
+            coupled = [t for t in turning if row[places[t]] != 0.0]
+            if freedom in bearing.held and name not in self.fields and coupled:
+                beside = f"is held beside the axis, which would also hold {' and '.join(coupled)} unless the deck gives that way"
+                raise InputError(f"{here}: {freedom}", None, beside, f"Give {key}, or put the bearing into the axis")
 
     def _refuse_close_lines(self, where: str) -> None:
         """Refuse spans and distances of bearings so short that round-off would spoil the modes of the whole deck."""
-        places = sorted(b.x for b in self.bearings)
-        if len(set(places)) < len(places):
-            double = next(a for a, b in zip(places[:-1], places[1:], strict=True) if a == b)
-            raise InputError(f"{where}: bearing: x", double, "is given to two bearing lines", "List all they hold in one of them")
+        seen = set()
+        for b in self.bearings:
+            place = (b.x, round(b.y, 6), round(b.z, 6), self.piece(b))
+            if place in seen:
+                raise InputError(
+                    f"{where}: bearing: x", b.x, "is given to two bearings in one place", "List all they hold in one"
+                )
+            seen.add(place)
         gaps = np.diff(self._lines)
         if gaps.min() < _SHORTEST * self.length:
             short = f"of {gaps.min():.3g} m behind x = {self._lines[np.argmin(gaps)]:g} m is too short, "
@@ -148,29 +238,19 @@ class Beam:
                 f"{where}: spans", list(self.spans), f"a span or distance of bearings {short}", "Merge the two lines"
             )
 
-    def _refuse_mechanism(self) -> None:
-        """Check that the bearings hold every rigid-body motion the beam is free to make."""
-        motions = {
-            "axial": [("sliding along x", {"x": lambda x: 1.0})],
-            "lateral": [("moving along y", {"y": lambda x: 1.0}), ("yawing", {"y": lambda x: x, "yaw": lambda x: 1.0})],
-            "vertical": [("moving along z", {"z": lambda x: 1.0}), ("pitching", {"z": lambda x: x, "pitch": lambda x: 1.0})],
-            "torsion": [("rolling", {"roll": lambda x: 1.0})],
-        }
-        for name in self.fields:
-            rows = [
-                [motion.get(f, lambda x: 0.0)(b.x / self.length) for _, motion in motions[name]]
-                for b in self.bearings
-                for f in b.fixed
-                if any(f in motion for _, motion in motions[name])
-            ]
-            if np.linalg.matrix_rank(np.array(rows) if rows else np.zeros((1, 1))) < len(motions[name]):
-                free = " or ".join(label for label, _ in motions[name])
-                raise InputError(
-                    f"{_where(self.name)}: bearings",
-                    [(b.x, " ".join(b.fixed)) for b in self.bearings],
-                    f"do not keep the deck from {free}, so it is a mechanism",
-                    "Hold one more freedom, or one more bearing line",
-                )
+    def _refuse_mechanism(self, where: str) -> None:
+        """Check that the bearings hold every rigid-body motion the beam, and each simple span, is free to make."""
+        moving = {"x": "axial", "y": "lateral", "z": "vertical", "roll": "torsion", "pitch": "vertical", "yaw": "lateral"}
+        orders = {"x": 1, "y": 3, "z": 3, "roll": 1, "pitch": 1, "yaw": 1}
+        reference = {f: self.stiffness_of(name) / self.length ** orders[f] for f, name in moving.items() if name in self.fields}
+        for piece in range(len(self.joints) + 1):
+            own = [b for b in self.bearings if self.piece(b) == piece]
+            free = free_motions(own, self.fields, self.length, self.centroid_height, reference)
+            if free:
+                what = "the deck" if self.continuous else f"span {piece + 1}"
+                held = [(b.x, " ".join(b.held)) for b in own]
+                allowed = f"do not keep {what} from {' or '.join(free)}, so it is a mechanism"
+                raise InputError(f"{where}: bearings", held, allowed, "Hold one more freedom, or one more bearing line")
 
     @cached_property
     def mesh(self) -> Mesh:
@@ -195,14 +275,15 @@ class Beam:
         damping: tuple[float, float] | float = 0.0,
         tracks: dict[str, float] | None = None,
         width: float | None = None,
+        track_height: float = 0.0,
     ) -> Deck:
-        """Return the modal deck of the lowest modes that loads can excite (axial ones are left out).
+        """Return the modal deck of the lowest modes that loads can excite (purely axial ones are left out).
 
         Parameters
         ----------
         modes : int
         damping : (alpha, beta) of Rayleigh, or one ratio for every mode
-        tracks, width
+        tracks, width, track_height
             See `Deck`.
         """
         wanted = inputs.integer("deck.modes", modes, least=1)
@@ -211,7 +292,7 @@ class Beam:
         else:
             damping = inputs.numbers("deck.damping", damping, count=2, least=0.0)
         everything = self.modes
-        excitable = [i for i, n in enumerate(everything.names) if not n.startswith("axial")]
+        excitable = np.flatnonzero(everything.excitable).tolist()
         if wanted > len(excitable):
             raise InputError("deck.modes", modes, f"the mesh has {len(excitable)} modes that loads excite", "Use more elements")
         kept = excitable[:wanted]
@@ -224,9 +305,11 @@ class Beam:
             damping_ratios=ratios,
             mode_names=tuple(everything.names[i] for i in kept),
             shapes=self.mesh.interpolate(everything.vectors[:, kept]),
-            supports=tuple(b.x for b in self.bearings),
+            supports=tuple(sorted({b.x for b in self.bearings})),
+            bearings=tuple((b.x, b.y, b.z) for b in self.bearings),
             recovery=BeamRecovery(self, kept),
             tracks=tracks or {},
             width=width,
+            track_height=track_height,
             mass_per_metre=self.mass,
         )

@@ -5,7 +5,8 @@ With mass-normalised shapes v_m, w_m (lateral, vertical) and theta_m (twist) eac
     q'' + 2 zeta omega q' + omega^2 q
         = sum over loads of (v F_y + w F_z + theta M_x - w' M_y + v' M_z) at the load's place x = V t - d,
 
-with M_x about the deck axis. A wheel at y, riding on the deck, moves by ``w + y theta`` and its support velocity is the
+with M_x about the deck axis. A wheel at y, riding on the deck, moves by ``w + y theta``, sideways by ``v - h theta`` where the
+rails lie h above the axis, and its support velocity is the
 total derivative ``w q' + V w' q``: the second, convective term is the climb along the deflected deck.
 
 Section forces and reactions are recovered as ``sum S_m q_m`` plus the static correction of the modes left out, which is
@@ -27,8 +28,8 @@ from .inputs import InputError
 from .response import SampledResponse, oscillator
 
 __all__ = [
-    "COMPONENTS", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line", "PiecewiseCubic", "Recovery",
-    "Stations", "rayleigh", "rayleigh_ratio",
+    "BEARING_QUANTITIES", "COMPONENTS", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
+    "PiecewiseCubic", "Recovery", "Stations", "rayleigh", "rayleigh_ratio",
 ]  # fmt: skip
 
 COMPONENTS = ("y", "z", "roll")
@@ -38,8 +39,10 @@ SECTION_QUANTITIES = {
     "displacement_y": "m", "displacement_z": "m", "rotation_x": "rad",
     "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m", "shear_vertical": "N", "shear_lateral": "N",
 }  # fmt: skip
-REACTION_QUANTITIES = {"force_y": "N", "force_z": "N", "moment_x": "N m"}
+REACTION_QUANTITIES = {"force_x": "N", "force_y": "N", "force_z": "N", "moment_x": "N m"}
 """What a deck recovers at a section and at a bearing line, with units."""
+BEARING_QUANTITIES = {**REACTION_QUANTITIES, "moment_y": "N m", "moment_z": "N m"}
+"""What a deck recovers of one bearing, with units; moments about the bearing itself."""
 
 
 def rayleigh(ratio: float, frequencies_hz: Sequence[float]) -> tuple[float, float]:
@@ -116,6 +119,9 @@ class Recovery(Protocol):
 
     def reaction(self, quantity: str, support: float) -> Line | None:
         """Return the line of a reaction, None where that freedom is not held."""
+
+    def bearing(self, number: int, quantity: str) -> Line | None:
+        """Return the line of a force of one of the deck's `bearings`, from 1, None where it does not hold that freedom."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,6 +275,11 @@ class Deck:
         m.
     mass_per_metre : float or None
         kg/m.
+    bearings : tuple of (x, y, z)
+        Places of the single bearings, m; empty where only bearing lines are known.
+    track_height : float
+        Rails above the deck axis, m. A lateral wheel force then twists the deck, M_x = -h F_y, and the rail moves sideways by
+        v - h theta.
     """
 
     name: str
@@ -282,6 +293,8 @@ class Deck:
     tracks: dict[str, float] = field(default_factory=dict)
     width: float | None = None
     mass_per_metre: float | None = None
+    bearings: tuple[tuple[float, float, float], ...] = ()
+    track_height: float = 0.0
 
     def __post_init__(self) -> None:
         # Copies, since a deck is made once for many crossings.

@@ -1,27 +1,18 @@
-r"""Finite elements of a straight beam: matrices, named modes, static influence lines.
+r"""Finite elements of a straight beam on bearings: assembled matrices and named modes.
 
-An element carries four fields: axial u and twist theta (quadratic, with a node in the middle), lateral v and vertical w
-(cubic, Euler-Bernoulli). With the shape functions as powers of the local coordinate, ``N = T^T (1, s, s^2, s^3)``, every
-matrix is one integral,
+Four fields (see `elements`): axial u of the centroid, lateral v and vertical w of the deck axis, which runs through the
+shear centres, and twist theta. The beam itself couples only v and theta, by a centroid off the axis: the velocity of the
+mass is that of v - z_c theta. Bearings off the axis couple the rest (see `bearings`): rigid ones are eliminated node by
+node, springs are added. Freedoms at a node: u, v, w, theta_x, psi_v = theta_z and psi_w = -theta_y, which are v' and w'
+without shear flexibility.
 
-    K = T^T [ int D_k D_k^T ds ] T * stiffness / h^(2k-1),      M = T^T [ int P P^T ds ] T * mass h,
-
-with k = 1 (axial: EA, twist: G J) or k = 2 (bending: E I). Freedoms at a node: u, v, w, theta_x, v' = theta_z and
-w' = -theta_y.
-
-Static influence lines follow from Mueller-Breslau: the influence line of a section force is the deflected shape under a
-unit jump of the conjugate displacement, and that of a reaction the shape under a unit support displacement; that of a
-displacement is the shape under a unit load there. All are exact at any load position and for any section: inside an
-element the jump's own function g (a step, a kink, or the cube of a point load) is added to the elements' shape and its
-interpolation taken off, so no section needs a mesh of its own.
+Where simple spans meet there are two nodes at one place, and shapes may jump.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import comb
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,30 +20,20 @@ from scipy.linalg import cho_factor, cho_solve, eigh
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from . import inputs
-from .deck import COMPONENTS, REACTION_QUANTITIES, SECTION_QUANTITIES, Line, PiecewiseCubic
-from .inputs import G
+from . import elements
+from .bearings import null_space
+from .deck import PiecewiseCubic
+from .elements import FIELDS
 
 if TYPE_CHECKING:
     from .beam import Beam
 
-__all__ = ["FIELDS", "BeamModes", "BeamRecovery", "Mesh"]
+__all__ = ["FIELDS", "BeamModes", "Mesh"]
 
-FIELDS = ("axial", "lateral", "vertical", "torsion")
-_NODE = {"x": 0, "y": 1, "z": 2, "roll": 3, "yaw": 4, "pitch": 5}  # place among a node's freedoms
-_HERMITE = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [-3, -2, 3, -1], [2, 1, -2, 1]], dtype=float)
-_QUADRATIC = np.array([[1, 0, 0], [-3, 4, -1], [2, -4, 2], [0, 0, 0]], dtype=float)
-_POWERS = np.array([[1.0 / (i + j + 1) for j in range(4)] for i in range(4)])
-
-
-def _derivative_integral(order: int) -> np.ndarray:
-    """Integrals over 0..1 of products of order-th derivatives of 1, s, s^2, s^3."""
-    factor = [np.prod(range(p - order + 1, p + 1)) if p >= order else 0.0 for p in range(4)]
-    result = np.zeros((4, 4))
-    for i in range(order, 4):
-        for j in range(order, 4):
-            result[i, j] = factor[i] * factor[j] / (i + j - 2 * order + 1)
-    return result
+_PLACE = {"axial": (0,), "lateral": (1, 4), "vertical": (2, 5), "torsion": (3,)}  # of a field among a node's freedoms
+_LABELS = {"axial": "axial", "lateral": "lateral bending", "vertical": "vertical bending", "torsion": "torsion"}
+MIXED = (0.1, 0.9)
+"""Share of axial kinetic energy between which a mode is called axial-bending."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,234 +44,238 @@ class BeamModes:
     ----------
     frequencies_hz : ndarray, shape (m,)
     names : tuple of str
-        ``vertical bending 1``, ``lateral bending 1``, ``torsion 1``, ``axial 1`` ...
+        ``vertical bending 1``, ``lateral bending 1``, ``torsion 1``, ``axial 1``, ``axial-bending 1`` ..., each numbered
+        within its kind. A mode is named after the field that holds most of its kinetic energy, that of the mass's own
+        lateral motion counted as lateral; but ``axial-bending`` where the axial share lies between 10 % and 90 %, as with
+        bearings below the axis. (Strain energy would be of no use on soft bearings, which hold most of it.)
     vectors : ndarray, shape (freedoms, m)
         Mass-normalised.
+    energies : dict of ndarray, shape (m,)
+        Share of the kinetic energy in each field.
     """
 
     frequencies_hz: np.ndarray
     names: tuple[str, ...]
     vectors: np.ndarray = field(repr=False)
+    energies: dict[str, np.ndarray] = field(repr=False)
+
+    @property
+    def excitable(self) -> np.ndarray:
+        """Which modes loads on the deck can excite, those that move it sideways, up or in twist, shape (m,)."""
+        return self.energies["axial"] < 1.0 - 1e-12
 
 
 class Mesh:
-    """Assembled matrices over given nodes. Freedoms: six a node, then twist and axial mid-nodes of each element."""
+    """Assembled matrices over given elements. Freedoms: six a node, then axial and twist mid-nodes of each element.
 
-    def __init__(self, beam: Beam, nodes: np.ndarray) -> None:
-        self.beam, self.nodes = beam, nodes
-        self.h = np.diff(nodes)
+    Attributes
+    ----------
+    edges : ndarray, shape (e + 1,)
+        Ends of the elements, m.
+    nodes : ndarray, shape (n,)
+        Places of the nodes, m; two at each joint between simple spans.
+    h : ndarray, shape (e,)
+        Lengths, m.
+    freedoms : dict of ndarray, shape (e, 3 or 4)
+        Of each field of each element.
+    """
+
+    def __init__(self, beam: Beam, edges: np.ndarray) -> None:
+        self.beam, self.edges = beam, edges
+        self.h = np.diff(edges)
         count = len(self.h)
-        self.size = 6 * len(nodes) + 2 * count
-        first, second = 6 * np.arange(count), 6 * np.arange(1, count + 1)
-        middle = 6 * len(nodes) + np.arange(count)
+        starts_piece = np.isin(edges[:-1], beam.joints)
+        first = np.arange(count) + np.cumsum(starts_piece)
+        self.nodes = np.insert(edges, np.flatnonzero(starts_piece), edges[:-1][starts_piece])
+        self._pieces = np.zeros(len(self.nodes), dtype=int)
+        self._pieces[first], self._pieces[first + 1] = (np.cumsum(starts_piece),) * 2
+        self.size = 6 * len(self.nodes) + 2 * count
+        middle = 6 * len(self.nodes) + np.arange(count)
+        start, stop = 6 * first, 6 * (first + 1)
         self.freedoms = {
-            "axial": np.stack([first, middle, second], axis=1),
-            "torsion": np.stack([first + 3, middle + count, second + 3], axis=1),
-            "lateral": np.stack([first + 1, first + 4, second + 1, second + 4], axis=1),
-            "vertical": np.stack([first + 2, first + 5, second + 2, second + 5], axis=1),
+            "axial": np.stack([start, middle, stop], axis=1),
+            "torsion": np.stack([start + 3, middle + count, stop + 3], axis=1),
+            "lateral": np.stack([start + 1, start + 4, stop + 1, stop + 4], axis=1),
+            "vertical": np.stack([start + 2, start + 5, stop + 2, stop + 5], axis=1),
         }
-        present = np.concatenate([self.freedoms[f].ravel() for f in beam.fields])
-        fixed = [6 * self.node(b.x) + _NODE[f] for b in beam.bearings for f in b.fixed]
-        self.free = np.setdiff1d(present, fixed)
+        self.phi = {name: np.full(count, beam.shear_flexibility(name)) * 12.0 / self.h**2 for name in FIELDS}
+        self.shapes = {name: elements.shape_matrices(name, self.h, self.phi[name]) for name in FIELDS}
 
-    def node(self, x: float) -> int:
-        """Return the node at x."""
-        return int(np.argmin(np.abs(self.nodes - x)))
+    def node(self, x: float, piece: int | None = None) -> int:
+        """Return the node at x (m); at a joint that of the given simple span (from 0), or else the first."""
+        distance = np.abs(self.nodes - x)
+        if piece is not None:
+            distance = np.where(self._pieces == piece, distance, np.inf)
+        return int(np.argmin(distance))
+
+    def line(self, x: float) -> np.ndarray:
+        """Return the nodes at x: one, or two at a joint."""
+        return np.flatnonzero(np.abs(self.nodes - x) < 1e-9 * self.edges[-1])
 
     def shape_matrix(self, name: str, element: int) -> np.ndarray:
         """Return T: powers of the local coordinate from the element's freedoms, shape (4, 3 or 4)."""
-        if name in ("axial", "torsion"):
-            return _QUADRATIC
-        return _HERMITE * np.array([1.0, self.h[element], 1.0, self.h[element]])
+        return self.shapes[name][element]
 
-    def element(self, name: str, e: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return stiffness and mass of one field of one element."""
-        b = self.beam
-        stiffness, mass, order = {
-            "axial": (b.axial_stiffness, b.mass, 1),
-            "torsion": (b.torsional_stiffness, b.polar_inertia, 1),
-            "lateral": (b.bending_stiffness_lateral, b.mass, 2),
-            "vertical": (b.bending_stiffness_vertical, b.mass, 2),
-        }[name]
-        t, h = self.shape_matrix(name, e), self.h[e]
-        return (
-            stiffness / h ** (2 * order - 1) * t.T @ _derivative_integral(order) @ t,
-            mass * h * t.T @ _POWERS @ t,
-        )
+    @cached_property
+    def fields(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Stiffness and mass of every element of each field the beam has."""
+        return {
+            name: elements.matrices(
+                name,
+                self.h,
+                self.phi[name],
+                self.beam.stiffness_of(name),
+                self.beam.polar_inertia if name == "torsion" else self.beam.mass,
+                self.beam.rotary_inertia(name),
+            )
+            for name in self.beam.fields
+        }
+
+    @cached_property
+    def _eccentric(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Mass that a centroid off the axis adds: rows, columns and values of each part."""
+        z, mass, dofs = self.beam.centroid_height, self.beam.mass, self.freedoms
+        if z == 0.0 or "torsion" not in self.beam.fields:
+            return []
+        parts = [("torsion", "torsion", mass * z**2)]
+        if "lateral" in self.beam.fields:
+            parts += [("lateral", "torsion", -mass * z), ("torsion", "lateral", -mass * z)]
+        return [(dofs[a], dofs[b], size * elements.coupling(self.h, self.shapes[a], self.shapes[b])) for a, b, size in parts]
 
     @cached_property
     def matrices(self) -> tuple[np.ndarray, np.ndarray]:
         """K and M over all freedoms, bearings not yet applied, shape (size, size)."""
-        total = np.zeros((2, self.size, self.size))
-        for name in self.beam.fields:
-            for e, dofs in enumerate(self.freedoms[name]):
-                total[:, dofs[:, None], dofs] += self.element(name, e)
-        return total[0], total[1]
+        k, m = np.zeros((2, self.size, self.size))
+        for name, (stiffness, mass) in self.fields.items():
+            dofs = self.freedoms[name]
+            # Neighbours share freedoms, so every other element is added at a time.
+            for part in (slice(0, None, 2), slice(1, None, 2)):
+                where = dofs[part, :, None], dofs[part, None, :]
+                k[where] += stiffness[part]
+                m[where] += mass[part]
+        for rows, columns, values in self._eccentric:
+            for part in (slice(0, None, 2), slice(1, None, 2)):
+                m[rows[part, :, None], columns[part, None, :]] += values[part]
+        return k, m
+
+    # ---- bearings
+
+    @cached_property
+    def places(self) -> list[int]:
+        """The node of each bearing of the beam."""
+        return [self.node(b.x, self.beam.piece(b)) for b in self.beam.bearings]
+
+    @cached_property
+    def _present(self) -> np.ndarray:
+        """Which of a node's six freedoms the beam has."""
+        return np.array(sorted(p for name in self.beam.fields for p in _PLACE[name]))
+
+    def row(self, bearing: int, freedom: str) -> np.ndarray:
+        """Return the motion of a bearing (from 0) from its node's freedoms, those the beam lacks at rest, shape (6,)."""
+        row = np.zeros(6)
+        whole = self.beam.bearings[bearing].row(freedom, self.beam.centroid_height)
+        row[self._present] = whole[self._present]
+        return row
+
+    def rigid_rows(self, node: int) -> tuple[list[tuple[int, str]], np.ndarray]:
+        """Return which bearings hold which freedoms of a node rigidly, and the rows that say so, shape (r, 6)."""
+        keys = [(i, f) for i, n in enumerate(self.places) if n == node for f in self.beam.bearings[i].fixed]
+        return keys, np.array([self.row(*key) for key in keys]).reshape(-1, 6)
+
+    @cached_property
+    def basis(self) -> csr_array:
+        """Motions of all freedoms that the rigid bearings allow, shape (size, free)."""
+        held = set(self.places)
+        rows, columns, values, count = [], [], [], 0
+        for node in range(len(self.nodes)):
+            allowed = null_space(self.rigid_rows(node)[1][:, self._present]) if node in held else np.eye(len(self._present))
+            i, j = np.nonzero(allowed)
+            rows.append(6 * node + self._present[i])
+            columns.append(count + j)
+            values.append(allowed[i, j])
+            count += allowed.shape[1]
+        middles = np.concatenate([self.freedoms[n][:, 1] for n in ("axial", "torsion") if n in self.beam.fields] or [[]])
+        rows.append(middles.astype(int))
+        columns.append(count + np.arange(len(middles)))
+        values.append(np.ones(len(middles)))
+        entries = tuple(np.concatenate(part) for part in (values, rows, columns))
+        return csr_array((entries[0], entries[1:]), shape=(self.size, count + len(middles)))
+
+    @cached_property
+    def stiffness(self) -> np.ndarray:
+        """K with the springs of the bearings, shape (size, size)."""
+        k = self.matrices[0].copy()
+        for i, (bearing, node) in enumerate(zip(self.beam.bearings, self.places, strict=True)):
+            here = slice(6 * node, 6 * node + 6)
+            for freedom, size in bearing.stiffness.items():
+                row = self.row(i, freedom)
+                k[here, here] += size * np.outer(row, row)
+        return k
+
+    def _reduced(self, matrix: np.ndarray) -> np.ndarray:
+        return self.basis.T @ (self.basis.T @ matrix).T
 
     @cached_property
     def _factor(self):
-        return cho_factor(self.matrices[0][np.ix_(self.free, self.free)])
+        return cho_factor(self._reduced(self.stiffness))
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """Return the static displacement of all freedoms under a nodal load; the bearings hold."""
-        result = np.zeros(self.size)
-        result[self.free] = cho_solve(self._factor, load[self.free])
-        return result
+        return self.basis @ cho_solve(self._factor, self.basis.T @ load)
+
+    # ---- modes
 
     def modes(self) -> BeamModes:
-        """Solve each uncoupled group of freedoms on its own: a straight beam falls into four."""
-        k, m = (a[np.ix_(self.free, self.free)] for a in self.matrices)
+        """Solve each uncoupled group of freedoms on its own: a straight beam on bearings in its axis falls into four."""
+        k, m = self._reduced(self.stiffness), self._reduced(self.matrices[1])
         count, group = connected_components(csr_array((k != 0) | (m != 0)), directed=False)
         squares, vectors = [], []
         for g in range(count):
             here = np.flatnonzero(group == g)
             values, shapes = eigh(k[np.ix_(here, here)], m[np.ix_(here, here)])
-            full = np.zeros((self.size, len(values)))
-            full[self.free[here]] = shapes
             squares.append(values)
-            vectors.append(full)
+            vectors.append(self.basis[:, here] @ shapes)
         squares, vectors = np.concatenate(squares), np.hstack(vectors)
         order = np.argsort(squares, kind="stable")
         vectors = vectors[:, order]
-        return BeamModes(np.sqrt(squares[order]) / (2 * np.pi), self._names(vectors), self._signed(vectors))
+        energies = self._energies(vectors)
+        return BeamModes(np.sqrt(squares[order]) / (2 * np.pi), _names(energies), _signed(vectors), energies)
 
-    def _names(self, vectors: np.ndarray) -> tuple[str, ...]:
-        """Name modes by the field with the largest strain energy, numbered within it."""
-        energy = []
-        for name in FIELDS:
-            dofs = np.unique(self.freedoms[name])
-            part = vectors[dofs]
-            energy.append(np.einsum("im,ij,jm->m", part, self.matrices[0][np.ix_(dofs, dofs)], part))
-        labels = {"axial": "axial", "lateral": "lateral bending", "vertical": "vertical bending", "torsion": "torsion"}
-        names, seen = [], dict.fromkeys(FIELDS, 0)
-        for winner in np.argmax(energy, axis=0):
-            name = FIELDS[winner]
-            seen[name] += 1
-            names.append(f"{labels[name]} {seen[name]}")
-        return tuple(names)
-
-    def _signed(self, vectors: np.ndarray) -> np.ndarray:
-        """Fix the sign, which an eigensolver leaves open: the first sizeable entry is positive."""
-        large = np.abs(vectors) > 0.3 * np.abs(vectors).max(axis=0)
-        first = vectors[np.argmax(large, axis=0), np.arange(vectors.shape[1])]
-        return vectors * np.sign(first)
+    def _energies(self, vectors: np.ndarray) -> dict[str, np.ndarray]:
+        """Return the share of each field in the kinetic energy of every mode."""
+        result = {name: np.zeros(vectors.shape[1]) for name in FIELDS}
+        for name, (_, mass) in self.fields.items():
+            part = vectors[self.freedoms[name]]
+            result[name] += np.sum(part * (mass @ part), axis=(0, 1))
+        # The mass moves sideways by v - z_c theta; its own turning alone is torsion.
+        for rows, columns, values in self._eccentric:
+            result["lateral"] += np.sum(vectors[rows] * (values @ vectors[columns]), axis=(0, 1))
+        whole = sum(result.values())
+        return {name: part / whole for name, part in result.items()}
 
     def interpolate(self, vectors: np.ndarray) -> PiecewiseCubic:
         """Return lateral, vertical and twist shapes of nodal vectors, shape (size, n) or (size,)."""
         vectors = vectors.reshape(self.size, -1)
         result = np.zeros((len(self.h), 4, vectors.shape[1], 3))
         for c, name in enumerate(("lateral", "vertical", "torsion")):
-            if name not in self.beam.fields:
-                continue
-            for e, dofs in enumerate(self.freedoms[name]):
-                result[e, :, :, c] = self.shape_matrix(name, e) @ vectors[dofs]
-        return PiecewiseCubic(self.nodes, result)
+            if name in self.beam.fields:
+                result[..., c] = self.shapes[name] @ vectors[self.freedoms[name]]
+        return PiecewiseCubic(self.edges, result)
 
 
-class BeamRecovery:
-    """Influence lines and modal values of a beam's outputs; see `Recovery`."""
-
-    _CONJUGATE = {
-        # quantity: field, derivative that jumps, sign
-        "moment_vertical": ("vertical", 1, -1.0),
-        "moment_lateral": ("lateral", 1, 1.0),
-        "torsion": ("torsion", 0, 1.0),
-        "shear_vertical": ("vertical", 0, 1.0),
-        "shear_lateral": ("lateral", 0, 1.0),
-    }
-    _FIELD_OF = {
-        "displacement_y": "lateral", "displacement_z": "vertical", "rotation_x": "torsion",
-        "force_y": "lateral", "force_z": "vertical", "moment_x": "torsion",
-    }  # fmt: skip
-    _FREEDOM_OF = {"force_y": ("y", 1), "force_z": ("z", 2), "moment_x": ("roll", 3)}
-
-    def __init__(self, beam: Beam, kept: Sequence[int]) -> None:
-        self.beam = beam
-        self.kept = list(kept)
-        self._lines: dict[tuple[str, float], Line | None] = {}
-
-    def section(self, quantity: str, x: float) -> Line | None:
-        """Return the line of a displacement or section force at x (m); at an inner bearing the face just before it."""
-        inputs.choice("quantity", quantity, SECTION_QUANTITIES)
-        x = inputs.number("x", x, least=0.0, most=self.beam.length, unit="m", remedy="x runs along the deck")
-        return self._cached(quantity, x, self._section)
-
-    def reaction(self, quantity: str, support: float) -> Line | None:
-        """Return the line of a reaction on the deck at the bearing line `support` (m)."""
-        inputs.choice("quantity", quantity, REACTION_QUANTITIES)
-        return self._cached(quantity, support, self._reaction)
-
-    def _cached(self, quantity: str, x: float, make) -> Line | None:
-        key = quantity, float(x)
-        if key not in self._lines:
-            self._lines[key] = make(quantity, x)
-        return self._lines[key]
-
-    def _section(self, quantity: str, x: float) -> Line | None:
-        name = self._FIELD_OF.get(quantity) or self._CONJUGATE[quantity][0]
-        if name not in self.beam.fields:
-            return None
-        component = ("lateral", "vertical", "torsion").index(name)
-        mesh, bends = self.beam.mesh, name != "torsion"
-        e = max(int(np.searchsorted(mesh.nodes, x - 1e-9 * self.beam.length)) - 1, 0)
-        h = mesh.h[e]
-        cut = float(np.clip((x - mesh.nodes[e]) / h, 0.0, 1.0))
-        after = 1.0 - cut
-        # Values at the element's end of g, a power of (s - cut) behind the cut: value and, in bending, slope by x.
-        if quantity in self._CONJUGATE:
-            _, order, sign = self._CONJUGATE[quantity]
-            power, factor = order, sign * h**order
-        else:
-            stiffness = self.beam.bending_stiffness_lateral if name == "lateral" else self.beam.bending_stiffness_vertical
-            power, factor = (3, h**3 / (6 * stiffness)) if bends else (1, -h / self.beam.torsional_stiffness)
-        end = factor * after**power
-        slope = factor * power * after ** max(power - 1, 0) / h
-        nodal = np.array([0.0, 0.0, end, slope] if bends else [0.0, end / 2, end])
-        load, dofs = np.zeros(mesh.size), mesh.freedoms[name][e]
-        if quantity in self._CONJUGATE:
-            load[dofs] = mesh.element(name, e)[0] @ nodal
-        else:
-            load[dofs] = cut ** np.arange(4) @ mesh.shape_matrix(name, e) if bends else [1.0 - cut, 0.0, cut]
-        shape = mesh.interpolate(mesh.solve(load))
-        shape.coefficients[e, :, 0, component] -= mesh.shape_matrix(name, e) @ nodal
-        return self._line(_cut(shape, e, cut, component, power, factor))
-
-    def _reaction(self, quantity: str, support: float) -> Line | None:
-        mesh = self.beam.mesh
-        freedom, place = self._FREEDOM_OF[quantity]
-        held = any(abs(b.x - support) < 1e-9 * self.beam.length and freedom in b.fixed for b in self.beam.bearings)
-        if not held or self._FIELD_OF[quantity] not in self.beam.fields:
-            return None
-        dof = 6 * mesh.node(support) + place
-        moved = mesh.solve(mesh.matrices[0][dof])
-        moved[dof] -= 1.0
-        return self._line(mesh.interpolate(moved))
-
-    def _line(self, influence: PiecewiseCubic) -> Line:
-        """Attach the modal values: the static effect of each mode's own inertia load, S_m = omega^2 int line m phi dx."""
-        points, weights = np.polynomial.legendre.leggauss(5)
-        h = np.diff(influence.edges)
-        x = (influence.edges[:-1, None] + h[:, None] * (points + 1) / 2).ravel()
-        dx = (h[:, None] * weights / 2).ravel()
-        line = influence(x)[:, 0]
-        beam = self.beam
-        mass = np.array([beam.mass, beam.mass, beam.polar_inertia or 0.0])
-        everything = beam.modes
-        shapes = beam.mesh.interpolate(everything.vectors[:, self.kept])(x)
-        omega2 = (2 * np.pi * everything.frequencies_hz[self.kept]) ** 2
-        modal = omega2 * np.einsum("k,kc,c,kmc->m", dx, line, mass, shapes)
-        return Line(modal, influence, float(-beam.mass * G * dx @ line[:, COMPONENTS.index("z")]))
+def _names(energies: dict[str, np.ndarray]) -> tuple[str, ...]:
+    """Name modes by their kinetic energy, see `BeamModes`."""
+    shares = np.array([energies[name] for name in FIELDS])
+    names, seen = [], {}
+    for winner, axial in zip(np.argmax(shares, axis=0), energies["axial"], strict=True):
+        label = "axial-bending" if MIXED[0] <= axial <= MIXED[1] else _LABELS[FIELDS[winner]]
+        seen[label] = seen.get(label, 0) + 1
+        names.append(f"{label} {seen[label]}")
+    return tuple(names)
 
 
-def _cut(shape: PiecewiseCubic, e: int, cut: float, component: int, power: int, factor: float) -> PiecewiseCubic:
-    """Cut element e in two at the local coordinate `cut`, and add ``factor (s - cut)^power`` behind it."""
-    halves = []
-    for start, length in ((0.0, cut), (cut, 1.0 - cut)):
-        # Powers of s = start + length t in powers of t.
-        turn = np.array([[comb(k, j) * start ** (k - j) * length**j if k >= j else 0.0 for k in range(4)] for j in range(4)])
-        halves.append(np.einsum("jk,knc->jnc", turn, shape.coefficients[e]))
-    halves[1][power, 0, component] += factor * (1.0 - cut) ** power
-    kept = [half for half, length in zip(halves, (cut, 1.0 - cut), strict=True) if length > 0.0]
-    inner = [shape.edges[e] + cut * (shape.edges[e + 1] - shape.edges[e])] if len(kept) == 2 else []
-    edges = np.concatenate([shape.edges[: e + 1], inner, shape.edges[e + 1 :]])
-    return PiecewiseCubic(edges, np.concatenate([shape.coefficients[:e], kept, shape.coefficients[e + 1 :]]))
+def _signed(vectors: np.ndarray) -> np.ndarray:
+    """Fix the sign, which an eigensolver leaves open: the first sizeable entry is positive."""
+    large = np.abs(vectors) > 0.3 * np.abs(vectors).max(axis=0)
+    first = vectors[np.argmax(large, axis=0), np.arange(vectors.shape[1])]
+    return vectors * np.sign(first)
