@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from . import inputs
-from .beam import FIXITIES, Beam, Bearing
+from .beam import Beam
+from .bearings import FARTHEST, FIXITIES, Bearing
 from .deck import Deck, rayleigh
 from .inputs import InputError
 
@@ -21,6 +22,10 @@ _STIFFNESSES = (
     "torsional_stiffness",
     "axial_stiffness",
     "polar_inertia",
+    "shear_stiffness_vertical",
+    "shear_stiffness_lateral",
+    "rotary_inertia_vertical",
+    "rotary_inertia_lateral",
 )
 _SECTION = (
     "youngs_modulus",
@@ -31,13 +36,19 @@ _SECTION = (
     "second_moment_lateral",
     "torsion_constant",
 )
+_SHEAR_AREAS = ("shear_area_vertical", "shear_area_lateral")
+_BEAM_KEYS = (
+    "length", "spans", "section", *_STIFFNESSES, "mass", "damping", "modes", "bearing", "tracks", "width", "elements",
+    "continuous", "rotary_inertia", "centroid_height", "track_height", "name", "source", "note",
+)  # fmt: skip
 
 
 def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
     """Build a modal deck from the content of a deck file or of a case's ``[deck]``.
 
-    Keys: ``length`` or ``spans`` (m); either ``[section]`` (E, nu, density, A, I_y, I_z, J) or stiffnesses and ``mass``;
-    ``damping`` = {ratio, frequencies_hz} (Rayleigh) or {modal}; ``modes``; ``[[bearing]]`` x, fixed; ``tracks``; ``width``.
+    A beam's keys: ``length`` or ``spans`` (m) and ``continuous``; either ``[section]`` (E, nu, density, A, I_y, I_z, J, shear
+    areas) or stiffnesses and ``mass``; ``damping`` = {ratio, frequencies_hz} (Rayleigh) or {modal}; ``modes``; ``[[bearing]]``
+    x, y, z, fixed, stiffness, span; ``rotary_inertia``; ``centroid_height``; ``tracks``, ``width``, ``track_height``.
 
     Raises
     ------
@@ -45,71 +56,132 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
         Missing, unknown, contradictory or wrong keys, or a mechanism.
     """
     where = f"deck {name}" if name != "deck" else name
-    allowed = ["length", "spans", "section", *_STIFFNESSES, "mass", "damping", "modes", "bearing", "tracks", "width"]
-    inputs.keys(where, content, [*allowed, "elements", "name", "source", "note"], ["damping"])
+    return _from_beam(where, name, content)
+
+
+def _from_beam(where: str, name: str, content: dict[str, Any]) -> Deck:
+    """Build a deck from beam elements; see `beam`."""
+    inputs.keys(where, content, _BEAM_KEYS, ["damping"])
     if ("length" in content) == ("spans" in content):
         raise InputError(f"{where}: length", content.get("length"), "give either length or spans")
     spans = content["spans"] if "spans" in content else [_length(where, content["length"])]
+    tracks, width = _tracks(where, content)
+    beam = Beam(
+        name,
+        inputs.numbers(f"{where}: spans", spans, above=0.0, unit="m"),
+        bearings=bearings(where, content.get("bearing", []), width),
+        elements=content.get("elements"),
+        continuous=content.get("continuous", True),
+        centroid_height=content.get("centroid_height", 0.0),
+        **_properties(where, content),
+    )
+    damping = _damping(where, inputs.table(f"{where}: damping", content["damping"]))
+    return beam.deck(content.get("modes", 20), damping, tracks, width, track_height(where, content))
+
+
+def _properties(where: str, content: dict[str, Any]) -> dict[str, float]:
+    """Return a beam's mass, stiffnesses and inertias, from a section or as they are given."""
     if ("section" in content) == ("mass" in content):
         raise InputError(f"{where}: section", None, "give either a section or stiffnesses with mass, never both")
+    rotary = content.get("rotary_inertia", False)
+    if not isinstance(rotary, bool):
+        raise InputError(f"{where}: rotary_inertia", rotary, "must be true or false")
     if "section" in content:
         clash = [k for k in _STIFFNESSES if k in content]
         if clash:
             raise InputError(f"{where}: {clash[0]}", content[clash[0]], "a section is given too, never both", "Remove one")
-        properties = _from_section(f"{where}: section", inputs.table(f"{where}: section", content["section"]))
-    else:
-        inputs.keys(where, content, content, ["bending_stiffness_vertical"])
-        properties = {k: content[k] for k in (*_STIFFNESSES, "mass") if k in content}
-    given = content.get("bearing", [])
+        return _from_section(f"{where}: section", inputs.table(f"{where}: section", content["section"]), rotary)
+    inputs.keys(where, content, content, ["bending_stiffness_vertical"])
+    if rotary:
+        remedy = "Give rotary_inertia_vertical and rotary_inertia_lateral, kg m"
+        raise InputError(f"{where}: rotary_inertia", rotary, "follows from a section only", remedy)
+    return {k: content[k] for k in (*_STIFFNESSES, "mass") if k in content}
+
+
+def bearings(where: str, given: Any, width: float | None = None) -> tuple[Bearing, ...]:
+    """Return the bearings of a deck file's ``[[bearing]]``; none given, none returned.
+
+    Parameters
+    ----------
+    where : str
+        Of the deck, for errors.
+    given : list of tables
+        Each with x (m), y, z (m from the deck axis), fixed ("x y z"), stiffness (N/m, N m/rad by name) and span.
+    width : float, optional
+        Of the deck, m: bearings must stand below it.
+
+    Raises
+    ------
+    InputError
+    """
     if not isinstance(given, list):
         raise InputError(f"{where}: bearing", given, "must be a list of tables", "Write [[bearing]] with two brackets")
-    bearings = tuple(_bearing(where, i, b) for i, b in enumerate(given, start=1))
-    beam = Beam(
-        name,
-        inputs.numbers(f"{where}: spans", spans, above=0.0, unit="m"),
-        bearings=bearings,
-        elements=content.get("elements"),
-        **properties,
-    )
+    result = tuple(_bearing(f"{where}: bearing {i}", b) for i, b in enumerate(given, start=1))
+    for i, b in enumerate(result, start=1):
+        if width is not None and abs(b.y) > width / 2:
+            off = f"is off the deck, half width {width / 2:g} m"
+            raise InputError(f"{where}: bearing {i}: y", b.y, off, "Move the bearing below the deck, or correct the width")
+    return result
+
+
+def track_height(where: str, content: dict[str, Any]) -> float:
+    """Return the height of the rails above the deck axis, m."""
+    return inputs.number(f"{where}: track_height", content.get("track_height", 0.0), least=-FARTHEST, most=FARTHEST, unit="m")
+
+
+def _tracks(where: str, content: dict[str, Any]) -> tuple[dict[str, float], float | None]:
+    """Return the named tracks and the width they must lie on, m."""
     width = content.get("width")
     width = None if width is None else inputs.number(f"{where}: width", width, above=0.0, unit="m")
     tracks = inputs.table(f"{where}: tracks", content.get("tracks", {}))
     half = width / 2 if width else None
     for key, y in tracks.items():
         inputs.number(f"{where}: tracks.{key}", y, least=None if half is None else -half, most=half, unit="m")
-    damping = _damping(where, inputs.table(f"{where}: damping", content["damping"]))
-    return beam.deck(content.get("modes", 20), damping, tracks, width)
+    return tracks, width
 
 
 def _length(where: str, length: Any) -> float:
     return inputs.number(f"{where}: length", length, above=0.0, unit="m")
 
 
-def _from_section(where: str, s: dict[str, Any]) -> dict[str, float]:
-    inputs.keys(where, s, [], _SECTION)
-    for key in _SECTION:
+def _from_section(where: str, s: dict[str, Any], rotary: bool) -> dict[str, float]:
+    inputs.keys(where, s, _SHEAR_AREAS, _SECTION)
+    for key in s:
         if key != "poisson_ratio":
             inputs.number(f"{where}.{key}", s[key], above=0.0)
     inputs.number(f"{where}.poisson_ratio", s["poisson_ratio"], above=-1.0, most=0.5)
-    e = s["youngs_modulus"]
-    return {
-        "mass": s["density"] * s["area"],
+    e, density = s["youngs_modulus"], s["density"]
+    shear_modulus = e / (2 * (1 + s["poisson_ratio"]))
+    result = {
+        "mass": density * s["area"],
         "bending_stiffness_vertical": e * s["second_moment_vertical"],
         "bending_stiffness_lateral": e * s["second_moment_lateral"],
-        "torsional_stiffness": e / (2 * (1 + s["poisson_ratio"])) * s["torsion_constant"],
+        "torsional_stiffness": shear_modulus * s["torsion_constant"],
         "axial_stiffness": e * s["area"],
-        "polar_inertia": s["density"] * (s["second_moment_vertical"] + s["second_moment_lateral"]),
+        "polar_inertia": density * (s["second_moment_vertical"] + s["second_moment_lateral"]),
     }
+    for direction in ("vertical", "lateral"):
+        if f"shear_area_{direction}" in s:
+            result[f"shear_stiffness_{direction}"] = shear_modulus * s[f"shear_area_{direction}"]
+        if rotary:
+            result[f"rotary_inertia_{direction}"] = density * s[f"second_moment_{direction}"]
+    return result
 
 
-def _bearing(where: str, i: int, raw: Any) -> Bearing:
-    here = f"{where}: bearing {i}"
+def _bearing(here: str, raw: Any) -> Bearing:
     b = inputs.table(here, raw)
-    inputs.keys(here, b, [], ["x", "fixed"])
-    fixed = b["fixed"].split() if isinstance(b["fixed"], str) else b["fixed"]
+    inputs.keys(here, b, ["fixed", "y", "z", "stiffness", "span"], ["x"])
+    fixed = b.get("fixed", [])
+    fixed = fixed.split() if isinstance(fixed, str) else fixed
     if not isinstance(fixed, list):
         raise InputError(f"{here}: fixed", b["fixed"], "must list some of " + " ".join(FIXITIES))
-    return Bearing(inputs.number(f"{here}: x", b["x"], unit="m"), tuple(fixed))
+    if not fixed and not b.get("stiffness"):
+        raise InputError(f"{here}: fixed", None, "is missing", "Say what the bearing holds, here or by stiffness")
+    place = {key: inputs.number(f"{here}: {key}", b[key], unit="m") for key in ("x", "y", "z") if key in b}
+    springs = inputs.table(f"{here}: stiffness", b.get("stiffness", {}))
+    bearing = Bearing(fixed=tuple(fixed), stiffness=springs, span=b.get("span"), **place)
+    bearing.check(here)
+    return bearing
 
 
 def _damping(where: str, d: dict[str, Any]) -> tuple[float, float] | float:
