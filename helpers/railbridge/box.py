@@ -1,0 +1,536 @@
+"""Single-cell box girders from their dimensions: section, beam and shell from the same data.
+
+A box is the table ``[box]`` of a deck file, with its spans, bearings and tracks. Heights count from the underside of the
+box, y from its middle to the left. All dimensions are those of the drawing: overall, not between middle planes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, dataclass, field, fields
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import inputs
+from .beam import Beam, Bearing
+from .deck import Deck, rayleigh, rayleigh_ratio
+from .inputs import InputError
+from .section import SectionProperties, refuse_crossing, section_properties
+from .shell import Pad, Plate, Shell, ShellModes, Strip
+
+__all__ = ["Box", "BoxMesh", "Pads", "box", "box_from_table"]
+
+
+@dataclass(frozen=True)
+class Pads:
+    """A bearing line: pads under the webs.
+
+    Attributes
+    ----------
+    x : float
+        m, from the first bearing line.
+    fixed : tuple of str
+        Directions held rigidly at each pad: a subset of x y z.
+    stiffness : dict of float
+        N/m of each pad, springs in other directions.
+    under : {"both", "left", "right"}
+        Webs that stand on a pad.
+    length : float
+        Of a pad along the deck, m. Its width does not count: a web's foot is a line in the shell.
+    drop : float
+        m, how far below the underside of the box the bearing holds (its point of rotation).
+    """
+
+    x: float
+    fixed: tuple[str, ...] = ("y", "z")
+    stiffness: dict[str, float] = field(default_factory=dict)
+    under: str = "both"
+    length: float = 0.6
+    drop: float = 0.0
+
+    def check(self, here: str) -> None:
+        """Refuse unknown or doubly held directions and sizes out of range; `here` names the bearing line."""
+        for name in self.fixed:
+            inputs.choice(f"{here}: fixed", name, ("x", "y", "z"))
+        for name, value in inputs.table(f"{here}: stiffness", self.stiffness).items():
+            inputs.choice(f"{here}: stiffness", name, ("x", "y", "z"))
+            inputs.number(f"{here}: stiffness.{name}", value, above=0.0, most=1e14, unit="N/m")
+            if name in self.fixed:
+                raise InputError(f"{here}: stiffness.{name}", value, "is fixed, too", "Give one of both")
+        inputs.choice(f"{here}: under", self.under, ("both", "left", "right"))
+        inputs.number(f"{here}: length", self.length, above=0.0, most=5.0, unit="m")
+        inputs.number(f"{here}: drop", self.drop, least=0.0, most=5.0, unit="m")
+
+    @property
+    def sides(self) -> tuple[int, ...]:
+        """1 for the left web, -1 for the right one."""
+        return {"both": (1, -1), "left": (1,), "right": (-1,)}[self.under]
+
+
+@dataclass(frozen=True)
+class BoxMesh:
+    """Numbers of elements of the shell: along each span, over a web's height, between the webs, over a cantilever."""
+
+    along: int = 40
+    web: int = 4
+    slab: int = 6
+    cantilever: int = 3
+
+    def __post_init__(self) -> None:
+        inputs.integer("mesh.along", self.along, least=4, most=400)
+        inputs.integer("mesh.web", self.web, least=1, most=50, remedy="A web without elements across joins nothing")
+        inputs.integer("mesh.slab", self.slab, least=2, most=100)
+        inputs.integer("mesh.cantilever", self.cantilever, least=1, most=50)
+
+    def refined(self, factor: float) -> BoxMesh:
+        """Return a mesh with `factor` times as many elements each way."""
+        return BoxMesh(*(max(2, round(factor * getattr(self, f.name))) for f in fields(self)))
+
+
+@dataclass(frozen=True)
+class Box:
+    """A single-cell box girder.
+
+    Attributes
+    ----------
+    name : str
+    spans : tuple of float
+        m, continuous.
+    slab_width, slab_thickness : float
+        m; thickness in the middle between the webs.
+    depth : float
+        Overall, m.
+    web_thickness : float
+        Square to the web, m.
+    web_spacing : float
+        Between the webs' middle planes at the slab, m.
+    bottom_thickness : float
+        m.
+    youngs_modulus, poisson_ratio, density : float
+        Pa, -, kg/m3.
+    bottom_spacing : float, optional
+        Between the webs' middle planes at the bottom, m; default as at the slab (upright webs).
+    root_thickness, edge_thickness : float, optional
+        Of the slab over the webs and at its edges, m; default `slab_thickness`. The slab is flat on top and straight
+        between, inside over `haunch_length`.
+    haunch_length : float
+        m, inwards from the webs' middle planes; default a quarter of their spacing.
+    diaphragm_thickness : float or None
+        m, of the plates across the box over every bearing line; None: there are none.
+    overhang : float
+        m, by which the deck reaches beyond its outer bearing lines; only the shell has it.
+    track_mass, edge_mass : float
+        Mass besides the concrete, kg/m of deck: between the webs (tracks), and on both edges together (parapets, cables).
+    bearings : tuple of Pads
+        Default: y and z held at every bearing line, x at the first, under both webs.
+    tracks : dict of float
+        m left of the axis.
+
+    Raises
+    ------
+    InputError
+        A thickness that is not positive, webs outside the slab, through each other or through the deck's height, a bottom
+        wider than the slab, an outline that crosses itself, or bearings off the deck.
+    """
+
+    name: str
+    spans: tuple[float, ...]
+    slab_width: float
+    slab_thickness: float
+    depth: float
+    web_thickness: float
+    web_spacing: float
+    bottom_thickness: float
+    youngs_modulus: float
+    poisson_ratio: float = 0.2
+    density: float = 2500.0
+    bottom_spacing: float | None = None
+    root_thickness: float | None = None
+    edge_thickness: float | None = None
+    haunch_length: float | None = None
+    diaphragm_thickness: float | None = 0.3
+    overhang: float = 0.3
+    track_mass: float = 0.0
+    edge_mass: float = 0.0
+    bearings: tuple[Pads, ...] = ()
+    tracks: dict[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        where = self.where
+        spans = inputs.numbers(f"{where}: spans", self.spans, above=0.0, unit="m")
+        if not 1 <= len(spans) <= 30:
+            raise InputError(f"{where}: spans", list(self.spans), "must hold 1 to 30 spans")
+        object.__setattr__(self, "spans", tuple(spans.tolist()))
+        for key, default in (
+            ("bottom_spacing", self.web_spacing),
+            ("root_thickness", self.slab_thickness),
+            ("edge_thickness", self.slab_thickness),
+        ):
+            if getattr(self, key) is None:
+                object.__setattr__(self, key, default)
+        for key in ("slab_width", "depth", "web_spacing", "bottom_spacing"):
+            inputs.number(f"{where}: {key}", getattr(self, key), above=0.0, most=100.0, unit="m")
+        for key in ("slab_thickness", "web_thickness", "bottom_thickness", "root_thickness", "edge_thickness"):
+            inputs.number(f"{where}: {key}", getattr(self, key), above=0.0, most=10.0, unit="m")
+        if self.haunch_length is None:
+            object.__setattr__(self, "haunch_length", self.web_spacing / 4)
+        inputs.number(f"{where}: haunch_length", self.haunch_length, above=0.0, unit="m")
+        if self.diaphragm_thickness is not None:
+            remedy = "Leave diaphragms out by giving none"
+            inputs.number(
+                f"{where}: diaphragm_thickness", self.diaphragm_thickness, above=0.0, most=10.0, unit="m", remedy=remedy
+            )
+        inputs.number(f"{where}: overhang", self.overhang, least=0.0, most=min(self.spans) / 2, unit="m")
+        for key in ("track_mass", "edge_mass"):
+            inputs.number(f"{where}: {key}", getattr(self, key), least=0.0, unit="kg/m")
+        inputs.number(f"{where}: youngs_modulus", self.youngs_modulus, above=0.0, unit="Pa")
+        inputs.number(f"{where}: poisson_ratio", self.poisson_ratio, above=-1.0, most=0.49)
+        inputs.number(f"{where}: density", self.density, above=0.0, unit="kg/m3")
+        self._refuse_geometry(where)
+        if not self.bearings:
+            lines = np.concatenate([[0.0], np.cumsum(self.spans)]).tolist()
+            held = tuple(Pads(x, ("x", "y", "z") if i == 0 else ("y", "z")) for i, x in enumerate(lines))
+            object.__setattr__(self, "bearings", held)
+        for i, pads in enumerate(self.bearings, start=1):
+            here = f"{where}: bearing {i}"
+            inputs.number(f"{here}: x", pads.x, least=0.0, most=self.length, unit="m", remedy="It must lie on the deck")
+            pads.check(here)
+        for key, y in inputs.table(f"{where}: tracks", self.tracks).items():
+            inputs.number(f"{where}: tracks.{key}", y, least=-self.slab_width / 2, most=self.slab_width / 2, unit="m")
+
+    # ------------------------------------------------------------------ geometry
+
+    @property
+    def where(self) -> str:
+        """The box as messages call it."""
+        return f"box {self.name}"
+
+    @property
+    def length(self) -> float:
+        """Between the outer bearing lines, m."""
+        return float(sum(self.spans))
+
+    @property
+    def _widths(self) -> tuple[float, float, float]:
+        """Web thickness along y, m, and y of the web's middle plane at the underside of the slab and of the box."""
+        high, low = self.depth - self.root_thickness / 2, self.bottom_thickness / 2
+        lean = (self.web_spacing - self.bottom_spacing) / 2 / (high - low)
+        at = self.bottom_spacing / 2 + lean * (np.array([self.depth - self.root_thickness, 0.0]) - low)
+        return self.web_thickness * float(np.hypot(1.0, lean)), float(at[0]), float(at[1])
+
+    def _refuse_geometry(self, where: str) -> None:
+        clear = self.depth - max(self.root_thickness, self.slab_thickness) - self.bottom_thickness
+        if clear < 0.1:
+            raise InputError(
+                f"{where}: depth", self.depth, f"leaves {clear:.3g} m of height between slab and bottom, must leave 0.1 m",
+                "Make the box deeper or its plates thinner",
+            )  # fmt: skip
+        wide, head, foot = self._widths
+        inner = head - wide / 2, foot + (head - foot) * self.bottom_thickness / (self.depth - self.root_thickness) - wide / 2
+        if min(inner) < 0.05:
+            raise InputError(
+                f"{where}: web_thickness", self.web_thickness, "the webs run into each other",
+                "Set them farther apart or make them thinner",
+            )  # fmt: skip
+        if self.web_spacing + wide > self.slab_width + 1e-9 or 2 * head + wide > self.slab_width + 1e-9:
+            raise InputError(
+                f"{where}: web_spacing", self.web_spacing, f"the webs stand outside the slab, which is {self.slab_width:g} m wide",
+                "Make the slab wider or set the webs closer",
+            )  # fmt: skip
+        if 2 * foot + wide > self.slab_width + 1e-9:
+            raise InputError(
+                f"{where}: bottom_spacing", self.bottom_spacing, "makes the bottom wider than the slab", "Lean the webs inwards"
+            )
+        if self.slab_width - self.web_spacing < 0.1:
+            raise InputError(f"{where}: slab_width", self.slab_width, "leaves no cantilevers; must leave 0.05 m at each side")
+        if not self.haunch_length < self.web_spacing / 2:
+            raise InputError(
+                f"{where}: haunch_length", self.haunch_length, f"must be below half the web spacing, {self.web_spacing / 2:g} m"
+            )
+        for key in ("edge_thickness", "slab_thickness"):
+            if getattr(self, key) > self.depth - self.bottom_thickness:
+                raise InputError(f"{where}: {key}", getattr(self, key), "reaches down to the bottom plate")
+        refuse_crossing(f"{where}: outline", self.outline)
+        refuse_crossing(f"{where}: hole", self.hole)
+
+    def thickness(self, y: np.ndarray) -> np.ndarray:
+        """Return the slab's thickness (m) at y (m)."""
+        web, edge = self.web_spacing / 2, self.slab_width / 2
+        places = [0.0, web - self.haunch_length, web, edge]
+        return np.interp(np.abs(y), places, [self.slab_thickness, self.slab_thickness, self.root_thickness, self.edge_thickness])
+
+    @cached_property
+    def outline(self) -> np.ndarray:
+        """Corners of the concrete, y and z, m, from the top left anticlockwise seen against x."""
+        wide, head, foot = self._widths
+        under = head + wide / 2
+        right = [
+            (self.slab_width / 2, self.depth),
+            (self.slab_width / 2, self.depth - self.edge_thickness),
+            (under, self.depth - float(self.thickness(under))),
+            (foot + wide / 2, 0.0),
+        ]
+        return np.array(right + [(-y, z) for y, z in reversed(right)])
+
+    @cached_property
+    def hole(self) -> np.ndarray:
+        """Corners of the cell, y and z, m."""
+        wide, head, foot = self._widths
+        lean = (head - foot) / (self.depth - self.root_thickness)
+        top = head - wide / 2
+        knee = self.web_spacing / 2 - self.haunch_length
+        half = [
+            (foot + lean * self.bottom_thickness - wide / 2, self.bottom_thickness),
+            (top, self.depth - float(self.thickness(top))),
+        ]
+        if self.root_thickness != self.slab_thickness and knee < top - 1e-6:
+            half.append((knee, self.depth - self.slab_thickness))
+        return np.array(half + [(-y, z) for y, z in reversed(half)])
+
+    # ------------------------------------------------------------------ section and beam
+
+    @cached_property
+    def section(self) -> SectionProperties:
+        """Properties of the concrete section, by finite elements over it; needs the extra `fem`."""
+        return section_properties(self.outline, (self.hole,), self.poisson_ratio)
+
+    @property
+    def concrete_mass(self) -> float:
+        """kg/m."""
+        return self.density * (_area(self.outline) - _area(self.hole))
+
+    @property
+    def mass_per_metre(self) -> float:
+        """Concrete and what it carries, kg/m; without diaphragms."""
+        return self.concrete_mass + self.track_mass + self.edge_mass
+
+    @property
+    def polar_inertia(self) -> float:
+        """Mass moment of inertia about the shear centre per metre, kg m; what is carried lies in the slab's middle plane."""
+        s = self.section
+        below = s.centroid[1] - s.shear_centre[1]
+        concrete = s.second_moment_vertical + s.second_moment_lateral + s.area * below**2
+        lever = self.depth - self.slab_thickness / 2 - s.shear_centre[1]
+        edges = self.edge_mass * ((self.slab_width / 2) ** 2 + lever**2)
+        return self.density * concrete + self.track_mass * (self.web_spacing**2 / 12 + lever**2) + edges
+
+    def beam(self, shear: bool = True, rotary_inertia: bool = True, track_height: bool = True, **options: Any) -> Beam:
+        """Return the beam of this box: bearings where its pads are, about the shear centre.
+
+        Parameters
+        ----------
+        shear, rotary_inertia, track_height : bool
+            Whether the beam bends by shear, resists by the inertia of turning sections, and is loaded at the slab's top.
+        **options
+            Further attributes of `Beam`.
+        """
+        s, e = self.section, self.youngs_modulus
+        g = e / (2 * (1 + self.poisson_ratio))
+        centre = s.shear_centre[1]
+        extra: dict[str, Any] = {"centroid_height": s.centroid[1] - centre}
+        if shear:
+            extra |= {"shear_stiffness_vertical": g * s.shear_area_vertical, "shear_stiffness_lateral": g * s.shear_area_lateral}
+        if rotary_inertia:
+            lever = self.depth - self.slab_thickness / 2 - s.centroid[1]
+            added = self.track_mass + self.edge_mass
+            across = self.track_mass * self.web_spacing**2 / 12 + self.edge_mass * (self.slab_width / 2) ** 2
+            extra |= {
+                "rotary_inertia_vertical": self.density * s.second_moment_vertical + added * lever**2,
+                "rotary_inertia_lateral": self.density * s.second_moment_lateral + across,
+            }
+        if track_height:
+            extra["track_height"] = self.depth - centre
+        return Beam(
+            self.name,
+            self.spans,
+            mass=self.mass_per_metre,
+            bending_stiffness_vertical=e * s.second_moment_vertical,
+            bending_stiffness_lateral=e * s.second_moment_lateral,
+            torsional_stiffness=g * s.torsion_constant,
+            axial_stiffness=e * s.area,
+            polar_inertia=self.polar_inertia,
+            bearings=self._beam_bearings(centre),
+            **(extra | options),
+        )
+
+    def _beam_bearings(self, centre: float) -> tuple[Bearing, ...]:
+        foot = self.bottom_spacing / 2
+        return tuple(
+            Bearing(p.x, p.fixed, side * foot, -p.drop - centre, dict(p.stiffness)) for p in self.bearings for side in p.sides
+        )
+
+    # ------------------------------------------------------------------ shell
+
+    def shell(self, mesh: BoxMesh | None = None) -> Shell:
+        """Return the shell of this box.
+
+        Plates lie in the middle planes. Where a web runs into the slab it would be counted twice: that strip carries shear
+        only (see `Strip.counted`). At the bottom corner what is counted twice and what is left out are equal.
+        """
+        mesh = mesh or BoxMesh()
+        web, edge = self.web_spacing / 2, self.slab_width / 2
+        inner = np.linspace(web, -web, mesh.slab + 1)
+        outer = np.linspace(edge, web, mesh.cantilever + 1)
+        y = np.concatenate([outer, inner[1:], -outer[-2::-1]])
+        points = [np.column_stack([y, self.depth - self.thickness(y) / 2])]
+        heads = mesh.cantilever, mesh.cantilever + mesh.slab
+        strips = []
+        for i in range(len(y) - 1):
+            part = "slab" if heads[0] <= i < heads[1] else "cantilevers"
+            added = self.track_mass / self.web_spacing if part == "slab" else 0.0
+            # The mean over the strip keeps the mass of the haunch.
+            thickness = float(self.thickness(np.linspace(y[i], y[i + 1], 21)).mean())
+            strips.append(Strip(i, i + 1, thickness, part, added))
+        top, low = self.depth - self.root_thickness / 2, self.bottom_thickness / 2
+        heights = np.linspace(low, self.depth - self.root_thickness, mesh.web + 1)
+        lean = (self.web_spacing - self.bottom_spacing) / 2 / (top - low)
+        feet, count = [], len(y)
+        for side, head in zip((1, -1), heads, strict=True):
+            points.append(np.column_stack([side * (self.bottom_spacing / 2 + lean * (heights - low)), heights]))
+            ids = [*range(count, count + len(heights)), head]
+            feet.append(count)
+            count += len(heights)
+            strips += [Strip(a, b, self.web_thickness, "webs") for a, b in zip(ids[:-2], ids[1:-1], strict=True)]
+            strips.append(Strip(ids[-2], ids[-1], self.web_thickness, "webs", counted=False))
+        across = np.linspace(self.bottom_spacing / 2, -self.bottom_spacing / 2, mesh.slab + 1)
+        points.append(np.column_stack([across[1:-1], np.full(mesh.slab - 1, low)]))
+        ids = [feet[0], *range(count, count + mesh.slab - 1), feet[1]]
+        strips += [Strip(a, b, self.bottom_thickness, "bottom") for a, b in zip(ids[:-1], ids[1:], strict=True)]
+        points = np.concatenate(points)
+        stations = self._stations(mesh)
+        return Shell(
+            points,
+            tuple(strips),
+            stations,
+            self.youngs_modulus,
+            self.poisson_ratio,
+            self.density,
+            plates=self._diaphragms(points, heads, np.append(heights, top)),
+            pads=tuple(
+                Pad(p.x, p.length, feet[0 if side > 0 else 1], low + p.drop, p.fixed, dict(p.stiffness))
+                for p in self.bearings
+                for side in p.sides
+            ),
+            line_masses={0: self.edge_mass / 2, len(y) - 1: self.edge_mass / 2},
+        )
+
+    def _stations(self, mesh: BoxMesh) -> np.ndarray:
+        lines = np.concatenate([[0.0], np.cumsum(self.spans)])
+        places = [np.linspace(a, b, mesh.along + 1) for a, b in zip(lines[:-1], lines[1:], strict=True)]
+        ends = [[-self.overhang], [self.length + self.overhang]] if self.overhang else []
+        # The diaphragms stand at the bearing lines, which may lie inside a span, too.
+        return np.unique(np.round(np.concatenate([*places, *ends, [p.x for p in self.bearings]]), 9))
+
+    def _diaphragms(self, points: np.ndarray, heads: tuple[int, int], heights: np.ndarray) -> tuple[Plate, ...]:
+        """Plates over every bearing line; their grid joins the nodes of slab, webs and bottom."""
+        if self.diaphragm_thickness is None:
+            return ()
+        slab = points[heads[0] : heads[1] + 1]
+        low = heights[0]
+        spacing = np.interp(heights, [low, heights[-1]], [self.bottom_spacing, self.web_spacing])
+        share = np.linspace(0.5, -0.5, len(slab))
+        # Straight lines from bottom to slab; the slab's middle plane need not be level.
+        rise = (heights - low) / (heights[-1] - low)
+        grid = np.stack(
+            [spacing[:, None] * share, low + rise[:, None] * (slab[:, 1] - low)],
+            axis=2,
+        )
+        lines = sorted({p.x for p in self.bearings})
+        return tuple(Plate(x, self.diaphragm_thickness, grid) for x in lines)
+
+    def shell_deck(self, modes: int = 15, damping: tuple[float, float] | float = 0.0, mesh: BoxMesh | None = None) -> Deck:
+        """Return the modal deck of the shell.
+
+        Its shapes are the motion of the line between the heads of the two webs, at the middle plane of the slab: lateral and
+        vertical their mean, twist their difference. What rails over the webs feel; a wheel between the webs also bends the
+        slab. Section forces and reactions are not recovered (`recovery` is None), and modes are not corrected statically.
+        """
+        mesh = mesh or BoxMesh()
+        shell = self.shell(mesh)
+        result = shell.modes(modes)
+        ratios = rayleigh_ratio(*damping, result.frequencies_hz) if not np.isscalar(damping) else np.full(modes, damping)
+        heads = mesh.cantilever, mesh.cantilever + mesh.slab
+        return Deck(
+            name=self.name,
+            length=self.length,
+            frequencies_hz=result.frequencies_hz,
+            damping_ratios=ratios,
+            mode_names=result.names,
+            shapes=shell.shapes(result.vectors, heads, 0.0, self.length),
+            supports=tuple(sorted({p.x for p in self.bearings})),
+            tracks=dict(self.tracks),
+            width=self.slab_width,
+            mass_per_metre=self.mass_per_metre,
+        )
+
+    def convergence(self, factors: tuple[float, ...] = (0.5, 1.0, 1.5, 2.0), modes: int = 15):
+        """Return a pandas DataFrame of the shell's frequencies (Hz) on meshes of `factors` times the default; pads stay."""
+        import pandas as pd
+
+        columns = {}
+        for factor in factors:
+            mesh = BoxMesh().refined(factor)
+            found = self.shell(mesh).modes(modes)
+            columns[f"{mesh.along} x {mesh.web} x {mesh.slab} x {mesh.cantilever}"] = found.frequencies_hz
+        return pd.DataFrame(columns, index=pd.RangeIndex(1, modes + 1, name="mode"))
+
+
+def _area(corners: np.ndarray) -> float:
+    """Area inside a closed line of corners."""
+    y, z = corners.T
+    return abs(float(y @ np.roll(z, -1) - z @ np.roll(y, -1))) / 2
+
+
+_DIMENSIONS = tuple(f.name for f in fields(Box) if f.name not in ("name", "spans", "bearings", "tracks"))
+_NEEDED = tuple(f.name for f in fields(Box) if f.default is MISSING and f.default_factory is MISSING and f.name in _DIMENSIONS)
+
+
+def box(source: str | Path) -> Box:
+    """Load a box by the shipped name of its deck file (``viaduct36_identified``) or from a ``.toml`` file.
+
+    Raises
+    ------
+    InputError
+        Unknown name, a deck file without the table ``[box]``, or bad content.
+    """
+    path = inputs.data_file("decks", source)
+    content = inputs.read_toml(path) if path.suffix == ".toml" else {}
+    if "box" not in content:
+        raise InputError("box", str(source), "this deck file has no table [box]", "A box needs its dimensions")
+    return box_from_table(path.stem, content)
+
+
+def box_from_table(name: str, content: dict[str, Any]) -> Box:
+    """Build a box from the content of a deck file: ``length`` or ``spans``, ``[box]``, ``[[bearing]]``, ``[tracks]``.
+
+    Raises
+    ------
+    InputError
+        Missing, unknown or wrong keys; see `Box`.
+    """
+    where = f"box {name}"
+    if ("length" in content) == ("spans" in content):
+        raise InputError(f"{where}: length", content.get("length"), "give either length or spans")
+    dimensions = inputs.table(f"{where}: box", content["box"])
+    inputs.keys(f"{where}: box", dimensions, _DIMENSIONS, _NEEDED)
+    given = content.get("bearing", [])
+    if not isinstance(given, list):
+        raise InputError(f"{where}: bearing", given, "must be a list of tables", "Write [[bearing]] with two brackets")
+    return Box(
+        name,
+        content["spans"] if "spans" in content else [content["length"]],
+        bearings=tuple(_pads(f"{where}: bearing {i}", b) for i, b in enumerate(given, start=1)),
+        tracks=inputs.table(f"{where}: tracks", content.get("tracks", {})),
+        **dimensions,
+    )
+
+
+def _pads(here: str, raw: Any) -> Pads:
+    given = inputs.table(here, raw)
+    inputs.keys(here, given, [f.name for f in fields(Pads)], ["x", "fixed"])
+    fixed = given["fixed"].split() if isinstance(given["fixed"], str) else given["fixed"]
+    if not isinstance(fixed, list):
+        raise InputError(f"{here}: fixed", given["fixed"], "must list some of x y z")
+    return Pads(**(given | {"fixed": tuple(fixed)}))

@@ -1,0 +1,624 @@
+r"""Prismatic shells: plates in a row along the deck, on bearings of stated size, and their natural modes.
+
+A section is points (y, z) joined by strips; carried along stations x it becomes a mesh of four-node shell elements
+(`pyfe3d`: Mindlin plate with reduced shear, membrane with drilling rotations after Allman). All elements of a strip that
+are equally long are equal, so each is computed once. Plates across the deck (diaphragms) stand at stations.
+
+*Bearings.* A force on a shell at one point, in the plane of a web, has no mesh limit: the displacement under it grows with
+the logarithm of the element size, and frequencies sink for ever. A bearing therefore acts on a pad: it holds, rigidly or by
+springs, the *mean* displacement of the web's foot over the pad's length. The mean leaves the foot free to turn, as a
+bearing does, and is an integral of the finite-element field, so that pads need no mesh of their own.
+
+*Names.* At each station the motion of the section is split into the rigid motion nearest to it (least squares with the
+mass) and the rest. The kinetic energy falls into five parts accordingly: vertical (with pitch), lateral (with yaw), torsion,
+axial, and local: distortion and bending of the plates. See `ShellModes` for the rule.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.sparse import csc_array, csr_array, vstack
+from scipy.sparse.linalg import LinearOperator, eigsh, splu
+
+from . import inputs
+from .deck import PiecewiseCubic
+from .inputs import InputError
+
+__all__ = ["KINDS", "Pad", "Plate", "Shell", "ShellModes", "Strip", "mac", "pairs"]
+
+KINDS = ("vertical", "lateral", "torsion", "axial", "local")
+"""The parts of a mode's kinetic energy."""
+
+_LABELS = {
+    "vertical": "vertical bending", "lateral": "lateral bending", "torsion": "torsion", "axial": "axial-bending",
+    "local": "local plate",
+}  # fmt: skip
+_DIRECTIONS = ("x", "y", "z")
+
+
+@dataclass(frozen=True)
+class Strip:
+    """A plate between two points of the section.
+
+    Attributes
+    ----------
+    start, end : int
+        Points of the section.
+    thickness : float
+        m.
+    part : str
+        Name of what it belongs to: slab, left web ...
+    added : float
+        Mass it carries besides its own, kg/m2.
+    counted : bool
+        False where the strip lies inside another one: it then carries shear and forces across, but no mass and no stress
+        along the deck, which the other one has already.
+    """
+
+    start: int
+    end: int
+    thickness: float
+    part: str
+    added: float = 0.0
+    counted: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class Plate:
+    """A plate across the deck at x (m).
+
+    Attributes
+    ----------
+    x : float
+        m; a station.
+    thickness : float
+        m.
+    points : ndarray, shape (rows, columns, 2)
+        y and z of its grid, m. The outer rows and columns must be points of the section.
+    """
+
+    x: float
+    thickness: float
+    points: np.ndarray
+
+
+@dataclass(frozen=True)
+class Pad:
+    """A bearing pad under a point of the section.
+
+    Attributes
+    ----------
+    x, length : float
+        Middle and length along the deck, m.
+    point : int
+        Point of the section that stands on it.
+    arm : float
+        m, how far below that point the bearing holds.
+    fixed : tuple of str
+        Directions held: a subset of x y z.
+    stiffness : dict of float
+        N/m, springs in directions not fixed.
+    """
+
+    x: float
+    length: float
+    point: int
+    arm: float = 0.0
+    fixed: tuple[str, ...] = ("z",)
+    stiffness: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class ShellModes:
+    """Natural modes of a shell, ascending.
+
+    The rule of the names: the part of the kinetic energy that is largest gives the kind, except that a mode whose axial
+    part is at least a quarter of axial and vertical together is axial-bending; local where the local part exceeds a half.
+
+    Attributes
+    ----------
+    frequencies_hz : ndarray, shape (m,)
+    names : tuple of str
+        ``vertical bending 1``, ``axial-bending 1``, ``local plate 1`` ..., numbered within each kind.
+    shares : dict of ndarray, shape (m,)
+        Parts of the kinetic energy: vertical, lateral, torsion, axial, local; their sum is 1.
+    motions : ndarray, shape (stations, 6, m)
+        The section's rigid motion about its centre of mass: x y z roll pitch yaw, mass-normalised.
+    parts : tuple of str
+        Which part of the section moves most in the local share: slab, cantilevers ...
+    even : ndarray of bool, shape (m,)
+        Whether left and right move alike (mirror image); vertical modes are, torsion is not.
+    vectors : ndarray, shape (nodes, 6, m)
+        All displacements and rotations, mass-normalised.
+    """
+
+    frequencies_hz: np.ndarray
+    names: tuple[str, ...]
+    shares: dict[str, np.ndarray]
+    motions: np.ndarray = field(repr=False)
+    parts: tuple[str, ...] = field(repr=False)
+    even: np.ndarray = field(repr=False)
+    vectors: np.ndarray = field(repr=False)
+
+    def to_frame(self):
+        """Return a pandas DataFrame with one row a mode: frequency, name, where it is local, shares of energy in percent."""
+        import pandas as pd
+
+        columns = {"frequency (Hz)": self.frequencies_hz, "name": self.names, "most local in": self.parts}
+        columns |= {f"{k} (%)": 100 * v for k, v in self.shares.items()}
+        return pd.DataFrame(columns, index=pd.RangeIndex(1, len(self.names) + 1, name="mode"))
+
+
+def _fem():
+    """Load pyfe3d, or say how to get it."""
+    try:
+        import pyfe3d
+        from pyfe3d.shellprop_utils import isotropic_plate
+    except ImportError:
+        raise InputError("shell", None, "the package pyfe3d is missing", 'Run: pip install -e ".[fem]"') from None
+    return pyfe3d, isotropic_plate
+
+
+def _element(corners: np.ndarray, prop) -> tuple[np.ndarray, np.ndarray]:
+    """Return stiffness and mass of a four-node element with corners (4, 3) in global axes, shape (24, 24) each."""
+    pyfe3d, _ = _fem()
+    sizes = pyfe3d.Quad4Data()
+    element = pyfe3d.Quad4(pyfe3d.Quad4Probe())
+    element.c1, element.c2, element.c3, element.c4 = 0, 6, 12, 18
+    # The drilling rotation by Allman's enrichment: a penalty would leave the webs too stiff in their plane.
+    element.drilling_model = 0
+    x = np.ascontiguousarray(corners, dtype=float).ravel()
+    element.update_rotation_matrix(x)
+    element.update_probe_xe(x)
+    result = []
+    for size, update in ((sizes.KC0_SPARSE_SIZE, element.update_KC0), (sizes.M_SPARSE_SIZE, element.update_M)):
+        rows, columns, values = np.zeros(size, dtype=pyfe3d.INT), np.zeros(size, dtype=pyfe3d.INT), np.zeros(size)
+        update(rows, columns, values, prop)
+        matrix = np.zeros((24, 24))
+        np.add.at(matrix, (rows, columns), values)
+        result.append((matrix + matrix.T) / 2)
+    return result[0], result[1]
+
+
+@dataclass(frozen=True, eq=False)
+class Shell:
+    """A prismatic shell on pads.
+
+    Attributes
+    ----------
+    points : ndarray, shape (p, 2)
+        y and z of the section's points, m.
+    strips : tuple of Strip
+    stations : ndarray, shape (s,)
+        x of the rows of nodes, m, ascending.
+    youngs_modulus, poisson_ratio, density : float
+        Pa, -, kg/m3.
+    plates : tuple of Plate
+    pads : tuple of Pad
+    line_masses : dict of float
+        Mass per metre (kg/m) carried at a point of the section.
+
+    Raises
+    ------
+    InputError
+        Pads that leave the shell a mechanism, or pads or plates off the shell.
+    """
+
+    points: np.ndarray
+    strips: tuple[Strip, ...]
+    stations: np.ndarray
+    youngs_modulus: float
+    poisson_ratio: float
+    density: float
+    plates: tuple[Plate, ...] = ()
+    pads: tuple[Pad, ...] = ()
+    line_masses: dict[int, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        start, end = self.stations[0], self.stations[-1]
+        for i, pad in enumerate(self.pads, start=1):
+            inputs.number(f"shell: pad {i}: x", pad.x, least=start, most=end, unit="m", remedy="It lies off the deck")
+            inputs.number(f"shell: pad {i}: length", pad.length, above=0.0, unit="m")
+        motions = np.array([row for row, _ in self._held_rigidly])
+        scale = np.array([1.0, 1.0, 1.0, *([1.0 / (end - start)] * 3)])
+        rank = np.linalg.matrix_rank(motions * scale, tol=1e-6) if len(motions) else 0
+        if rank < 6:
+            held = [(p.x, " ".join((*p.fixed, *p.stiffness))) for p in self.pads]
+            raise InputError(
+                "shell: bearings", held, f"leave {6 - rank} ways to move as a rigid body, so it is a mechanism",
+                "Hold x once, and y and z at two places",
+            )  # fmt: skip
+
+    # ------------------------------------------------------------------ geometry
+
+    @cached_property
+    def nodes(self) -> np.ndarray:
+        """All nodes, shape (n, 3), m: station by station, then the inner nodes of the plates."""
+        section = np.broadcast_to(self.points, (len(self.stations), *self.points.shape))
+        x = np.broadcast_to(self.stations[:, None, None], (*section.shape[:2], 1))
+        inner = [
+            np.column_stack([np.full(len(p), plate.x), p])
+            for plate in self.plates
+            for p in [plate.points[1:-1, 1:-1].reshape(-1, 2)]
+        ]
+        return np.concatenate([np.concatenate([x, section], axis=2).reshape(-1, 3), *inner])
+
+    @cached_property
+    def quads(self) -> np.ndarray:
+        """Corner nodes of all elements, shape (e, 4): strip by strip along the deck, then the plates."""
+        return np.concatenate([self._strip_quads.reshape(-1, 4), *self._plate_quads])
+
+    @cached_property
+    def _strip_quads(self) -> np.ndarray:
+        """Corner nodes, shape (strips, stations - 1, 4)."""
+        first = len(self.points) * np.arange(len(self.stations) - 1)
+        i, j = np.array([[s.start, s.end] for s in self.strips]).T[:, :, None]
+        step = len(self.points)
+        return np.stack([first + i, first + i + step, first + j + step, first + j], axis=2)
+
+    @cached_property
+    def _plate_quads(self) -> list[np.ndarray]:
+        result, inner = [], len(self.points) * len(self.stations)
+        for number, plate in enumerate(self.plates, start=1):
+            station = int(np.argmin(np.abs(self.stations - plate.x)))
+            if abs(self.stations[station] - plate.x) > 1e-9:
+                raise InputError(f"shell: plate {number}: x", plate.x, "is not at a station of the mesh")
+            grid = np.empty(plate.points.shape[:2], dtype=int)
+            grid[1:-1, 1:-1] = inner + np.arange(grid[1:-1, 1:-1].size).reshape(grid[1:-1, 1:-1].shape)
+            inner += grid[1:-1, 1:-1].size
+            for r, c in np.ndindex(grid.shape):
+                if r in (0, grid.shape[0] - 1) or c in (0, grid.shape[1] - 1):
+                    away = np.linalg.norm(self.points - plate.points[r, c], axis=1)
+                    if away.min() > 1e-9:
+                        raise InputError(f"shell: plate {number}", plate.points[r, c], "its edge is not a point of the section")
+                    grid[r, c] = station * len(self.points) + int(np.argmin(away))
+            result.append(np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]], axis=2).reshape(-1, 4))
+        return result
+
+    # ------------------------------------------------------------------ matrices
+
+    def _property(self, thickness: float, added: float = 0.0, counted: bool = True):
+        _, isotropic_plate = _fem()
+        prop = isotropic_plate(thickness, self.youngs_modulus, self.poisson_ratio, rho=self.density if counted else 0.0)
+        prop.intrho += added
+        if not counted:
+            # Element x runs along the deck: no stress that way, all the rest.
+            prop.A22 *= 1.0 - self.poisson_ratio**2
+            prop.A12, prop.A11 = 0.0, 1e-3 * prop.A22
+        return prop
+
+    @cached_property
+    def matrices(self) -> tuple[csr_array, csr_array]:
+        """K and M over all freedoms (six a node), bearings not yet applied, sparse."""
+        blocks, quads = [], []
+        lengths = np.round(np.diff(self.stations), 9)
+        for strip, row in zip(self.strips, self._strip_quads, strict=True):
+            prop = self._property(strip.thickness, strip.added, strip.counted)
+            for length in np.unique(lengths):
+                same = row[lengths == length]
+                blocks.append((np.array(_element(self.nodes[same[0]], prop)), len(same)))
+                quads.append(same)
+        for plate, corners in zip(self.plates, self._plate_quads, strict=True):
+            prop = self._property(plate.thickness)
+            for quad in corners:
+                blocks.append((np.array(_element(self.nodes[quad], prop)), 1))
+                quads.append(quad[None])
+        freedoms = (6 * np.concatenate(quads)[:, :, None] + np.arange(6)).reshape(-1, 24)
+        rows, columns = np.repeat(freedoms, 24, axis=1).ravel(), np.tile(freedoms, (1, 24)).ravel()
+        size = 6 * len(self.nodes)
+        result = []
+        for which in (0, 1):
+            values = np.concatenate([np.tile(block[which].ravel(), count) for block, count in blocks])
+            result.append(csr_array((values, (rows, columns)), shape=(size, size)))
+        extra = np.zeros((len(self.nodes), 6))
+        for point, mass in self.line_masses.items():
+            extra[point : len(self.points) * len(self.stations) : len(self.points), :3] += mass * self._tributary[:, None]
+        diagonal = np.arange(size)
+        return result[0], result[1] + csr_array((extra.ravel(), (diagonal, diagonal)), shape=(size, size))
+
+    @cached_property
+    def _tributary(self) -> np.ndarray:
+        """Length along the deck that belongs to each station, m."""
+        half = np.diff(self.stations) / 2
+        return np.concatenate([[0.0], half]) + np.concatenate([half, [0.0]])
+
+    @cached_property
+    def _held(self) -> list[tuple[csr_array, float]]:
+        """What each pad holds: a row over all freedoms that gives the mean displacement, and its stiffness (inf: rigid)."""
+        result = []
+        for pad in self.pads:
+            for direction in _DIRECTIONS:
+                if direction in pad.fixed or direction in pad.stiffness:
+                    result.append((self._mean(pad, direction), np.inf if direction in pad.fixed else pad.stiffness[direction]))
+        return result
+
+    def _mean(self, pad: Pad, direction: str) -> csr_array:
+        """Return the row that gives the pad's mean displacement in one direction.
+
+        The pad hangs `arm` below the point and turns with it: along x by the slope of the foot over the pad (the straight
+        line nearest to w), along y by the mean roll of the foot.
+        """
+        node, mean, slope = self._over(pad)
+        d = _DIRECTIONS.index(direction)
+        entries = {int(6 * n + d): m for n, m in zip(node, mean, strict=True)}
+        if pad.arm and direction == "x":
+            # theta_y = -w', and the point lies at (0, 0, -arm): u_x + theta_y (-arm).
+            entries |= {int(6 * n + 2): pad.arm * s for n, s in zip(node, slope, strict=True)}
+        elif pad.arm and direction == "y":
+            entries |= {int(6 * n + 3): pad.arm * m for n, m in zip(node, mean, strict=True)}
+        columns = np.array(list(entries))
+        return csr_array((list(entries.values()), ([0] * len(columns), columns)), shape=(1, 6 * len(self.nodes)))
+
+    def _over(self, pad: Pad) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the nodes under a pad and weights that give mean and slope of a linear field over it."""
+        x = self.stations
+        a, b = max(pad.x - pad.length / 2, x[0]), min(pad.x + pad.length / 2, x[-1])
+        cuts = np.unique(np.concatenate([[a, b], x[(x > a) & (x < b)]]))
+        # Two Gauss points integrate products of linear functions exactly on each piece.
+        half, middle = np.diff(cuts)[:, None] / 2, (cuts[:-1, None] + cuts[1:, None]) / 2
+        places = (middle + half * np.array([-1.0, 1.0]) / np.sqrt(3.0)).ravel()
+        weights = np.repeat(half.ravel(), 2) / (b - a)
+        shape = np.zeros((len(places), len(x)))
+        right = np.clip(np.searchsorted(x, places), 1, len(x) - 1)
+        share = (places - x[right - 1]) / (x[right] - x[right - 1])
+        shape[np.arange(len(places)), right] = share
+        shape[np.arange(len(places)), right - 1] = 1.0 - share
+        lever = places - weights @ places
+        mean, slope = weights @ shape, (weights * lever) @ shape / (weights @ lever**2)
+        used = np.flatnonzero(shape.any(axis=0))
+        return used * len(self.points) + pad.point, mean[used], slope[used]
+
+    @cached_property
+    def _held_rigidly(self) -> list[tuple[np.ndarray, float]]:
+        """What each held row makes of the six rigid-body motions, shape (6,)."""
+        x, y, z = (self.nodes - self.nodes.mean(axis=0)).T
+        zero, one = np.zeros(len(x)), np.ones(len(x))
+        motions = np.zeros((len(x), 6, 6))
+        for k in range(3):
+            motions[:, k, k] = one
+            motions[:, 3 + k, 3 + k] = one
+        motions[:, :3, 3] = np.stack([zero, -z, y], axis=1)
+        motions[:, :3, 4] = np.stack([z, zero, -x], axis=1)
+        motions[:, :3, 5] = np.stack([-y, x, zero], axis=1)
+        flat = motions.reshape(-1, 6)
+        return [((row @ flat).ravel(), stiffness) for row, stiffness in self._held]
+
+    @cached_property
+    def _constrained(self) -> tuple[csc_array, csc_array, csr_array]:
+        """K and M over the freedoms that are left, and what turns those into all freedoms."""
+        k, m = self.matrices
+        size = k.shape[0]
+        for row, stiffness in self._held:
+            if np.isfinite(stiffness):
+                k = k + stiffness * (row.T @ row)
+        rigid = [row for row, stiffness in self._held if np.isinf(stiffness)]
+        if not rigid:
+            identity = csr_array((np.ones(size), (np.arange(size), np.arange(size))))
+            return csc_array(k), csc_array(m), identity
+        rows = vstack(rigid).tocsr()
+        dense_columns = np.unique(rows.indices)
+        block = rows[:, dense_columns].toarray()
+        # One freedom of each condition follows from the others: that with the largest weight not yet taken.
+        gone: list[int] = []
+        work = block.copy()
+        for r in range(len(work)):
+            pivot = int(np.argmax(np.abs(work[r])))
+            gone.append(pivot)
+            for other in range(len(work)):
+                if other != r:
+                    work[other] -= work[other, pivot] / work[r, pivot] * work[r]
+        kept = np.setdiff1d(np.arange(len(dense_columns)), gone)
+        follow = -np.linalg.solve(block[:, gone], block[:, kept])
+        left = np.setdiff1d(np.arange(size), dense_columns[gone])
+        place = np.searchsorted(left, dense_columns[kept])
+        turn_rows = np.concatenate([left, np.repeat(dense_columns[gone], len(kept))])
+        turn_columns = np.concatenate([np.arange(len(left)), np.tile(place, len(gone))])
+        turn = csr_array(
+            (np.concatenate([np.ones(len(left)), follow.ravel()]), (turn_rows, turn_columns)), shape=(size, len(left))
+        )
+        return csc_array(turn.T @ k @ turn), csc_array(turn.T @ m @ turn), turn
+
+    # ------------------------------------------------------------------ modes
+
+    def modes(self, count: int = 15) -> ShellModes:
+        """Return the lowest modes, by shift-invert Lanczos iteration about zero.
+
+        Raises
+        ------
+        InputError
+            More modes than a quarter of the freedoms.
+        """
+        k, m, turn = self._constrained
+        count = inputs.integer("modes", count, least=1, most=max(k.shape[0] // 4, 1))
+        factor = splu(k, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        inverse = LinearOperator(k.shape, factor.solve, dtype=float)
+        # A fixed start makes the last digits repeatable.
+        start = np.random.default_rng(1).standard_normal(k.shape[0])
+        squares, vectors = eigsh(k, count, m, sigma=0.0, OPinv=inverse, v0=start)
+        order = np.argsort(squares)
+        full = (turn @ vectors[:, order]).reshape(len(self.nodes), 6, count)
+        large = np.abs(full[:, :3]).reshape(-1, count)
+        sign = np.sign(full[:, :3].reshape(-1, count)[np.argmax(large > 0.5 * large.max(axis=0), axis=0), np.arange(count)])
+        return self._described(np.sqrt(squares[order]) / (2 * np.pi), full * sign)
+
+    @cached_property
+    def point_masses(self) -> np.ndarray:
+        """Mass per metre at each point of the section, kg/m, shape (p,). Plates across the deck are not in it."""
+        result = np.zeros(len(self.points))
+        for s in self.strips:
+            length = np.linalg.norm(self.points[s.end] - self.points[s.start])
+            mass = length * (self.density * s.thickness * s.counted + s.added) / 2
+            result[[s.start, s.end]] += mass
+        for point, mass in self.line_masses.items():
+            result[point] += mass
+        return result
+
+    @property
+    def mass_per_metre(self) -> float:
+        """kg/m, without plates across."""
+        return float(self.point_masses.sum())
+
+    @property
+    def centre(self) -> np.ndarray:
+        """Centre of mass of the section, y and z, m."""
+        return self.point_masses @ self.points / self.point_masses.sum()
+
+    @cached_property
+    def _inertias(self) -> np.ndarray:
+        """Inertia per metre of the section's rigid motions: x y z (kg/m), roll pitch yaw (kg m)."""
+        y, z = (self.points - self.centre).T
+        m = self.point_masses
+        return np.array([m.sum()] * 3 + [m @ (y**2 + z**2), m @ z**2, m @ y**2])
+
+    def section_motions(self, vectors: np.ndarray) -> np.ndarray:
+        """Return the rigid motion of each section about its centre of mass that is nearest to nodal vectors.
+
+        Parameters
+        ----------
+        vectors : ndarray, shape (nodes, 6, m)
+
+        Returns
+        -------
+        ndarray, shape (stations, 6, m)
+            x y z roll pitch yaw, by least squares with the mass.
+        """
+        moved = self._sectionwise(vectors)
+        y, z = (self.points - self.centre).T
+        zero, one = np.zeros_like(y), np.ones_like(y)
+        rigid = np.stack(
+            [
+                np.stack([one, zero, zero, zero, z, -y]),
+                np.stack([zero, one, zero, -z, zero, zero]),
+                np.stack([zero, zero, one, y, zero, zero]),
+            ],
+            axis=1,
+        )  # (6, 3, points)
+        weighted = rigid * self.point_masses
+        gram = np.einsum("acp,bcp->ab", weighted, rigid)
+        return np.einsum("ab,bcp,spcm->sam", np.linalg.inv(gram), weighted, moved)
+
+    def _sectionwise(self, vectors: np.ndarray) -> np.ndarray:
+        """Displacements of the section's points, shape (stations, points, 3, m)."""
+        count = len(self.stations) * len(self.points)
+        return vectors[:count, :3].reshape(len(self.stations), len(self.points), 3, -1)
+
+    def _described(self, frequencies: np.ndarray, vectors: np.ndarray) -> ShellModes:
+        """Attach names, shares of energy and section motions to modes."""
+        motions, moved = self.section_motions(vectors), self._sectionwise(vectors)
+        parts = np.einsum("s,a,sam->am", self._tributary, self._inertias, motions**2)
+        total = np.einsum("s,p,spcm->m", self._tributary, self.point_masses, moved**2)
+        x, y, z, roll, pitch, yaw = parts / total
+        shares = {"vertical": z + pitch, "lateral": y + yaw, "torsion": roll, "axial": x}
+        shares["local"] = np.clip(1.0 - sum(shares.values()), 0.0, None)
+        names, seen = [], dict.fromkeys(KINDS, 0)
+        for i in range(len(frequencies)):
+            kind = _kind({k: float(v[i]) for k, v in shares.items()})
+            seen[kind] += 1
+            names.append(f"{_LABELS[kind]} {seen[kind]}")
+        return ShellModes(frequencies, tuple(names), shares, motions, self._liveliest(moved), self._even(moved), vectors)
+
+    def _liveliest(self, moved: np.ndarray) -> tuple[str, ...]:
+        """Name the part of the section that moves most, by mean square displacement, in each mode."""
+        square = np.einsum("s,spcm->pm", self._tributary, moved**2)
+        names = list(dict.fromkeys(s.part for s in self.strips if s.counted))
+        means = []
+        for name in names:
+            own = [s for s in self.strips if s.part == name]
+            lengths = np.array([np.linalg.norm(self.points[s.end] - self.points[s.start]) for s in own])
+            values = np.array([(square[s.start] + square[s.end]) / 2 for s in own])
+            means.append(lengths @ values / lengths.sum())
+        return tuple(names[i] for i in np.argmax(means, axis=0))
+
+    def _even(self, moved: np.ndarray) -> np.ndarray:
+        """Whether each mode is its own mirror image rather than its opposite; all true for a section without mirror."""
+        mirrored = self.points * [-1.0, 1.0]
+        away = np.linalg.norm(self.points[:, None] - mirrored[None], axis=2)
+        twin = np.argmin(away, axis=0)
+        if away[twin, np.arange(len(twin))].max() > 1e-6:
+            return np.ones(moved.shape[-1], dtype=bool)
+        product = np.einsum("c,p,spcm,spcm->m", [1.0, -1.0, 1.0], self.point_masses, moved, moved[:, twin])
+        return product >= 0.0
+
+    def shapes(self, vectors: np.ndarray, points: tuple[int, int], start: float, end: float) -> PiecewiseCubic:
+        """Return shapes along the deck as the line through two points of the section moves.
+
+        Lateral and vertical are the mean of the two points, twist is the difference of their heights over their distance:
+        for the two web heads that is what the rails do, which stand nearly above the webs. A cubic spline joins stations.
+
+        Parameters
+        ----------
+        vectors : ndarray, shape (nodes, 6, m)
+        points : (left, right)
+            Points of the section.
+        start, end : float
+            m, the range of x, both stations.
+        """
+        moved = self._sectionwise(vectors)
+        left, right = moved[:, points[0]], moved[:, points[1]]
+        apart = self.points[points[0], 0] - self.points[points[1], 0]
+        middle = (left + right) / 2
+        values = np.stack([middle[:, 1], middle[:, 2], (left[:, 2] - right[:, 2]) / apart], axis=2)
+        spline = CubicSpline(self.stations, values)
+        inside = np.flatnonzero((self.stations > start - 1e-9) & (self.stations < end + 1e-9))
+        edges = self.stations[inside]
+        h = np.diff(edges)
+        # CubicSpline keeps the highest power first, of x - edge in m.
+        powers = spline.c[::-1, inside[:-1]].transpose(1, 0, 2, 3)
+        return PiecewiseCubic(edges - start, powers * h[:, None, None, None] ** np.arange(4)[:, None, None])
+
+
+def _kind(shares: dict[str, float]) -> str:
+    if shares["local"] > 0.5:
+        return "local"
+    if shares["axial"] >= 0.25 * (shares["axial"] + shares["vertical"]) and shares["axial"] + shares["vertical"] > 0.5:
+        return "axial"
+    return max(("vertical", "lateral", "torsion", "axial"), key=lambda k: shares[k])
+
+
+def mac(a: np.ndarray, b: np.ndarray, weights: np.ndarray | None = None) -> np.ndarray:
+    """Return the modal assurance criterion of two sets of shapes: ``(a.b)^2 / (a.a b.b)`` with weights (mass).
+
+    Parameters
+    ----------
+    a : ndarray, shape (n, m)
+    b : ndarray, shape (n, k)
+    weights : ndarray, shape (n,), optional
+        Mass that belongs to each entry.
+
+    Returns
+    -------
+    ndarray, shape (m, k)
+        1: the same shape; 0: none of it (orthogonal). A pair below about 0.8 is no pair.
+
+    Raises
+    ------
+    InputError
+        Sets that do not have the same rows, or a shape that is zero.
+    """
+    a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+    if a.ndim != 2 or b.ndim != 2 or len(a) != len(b):
+        raise InputError("mac", (a.shape, b.shape), "both sets need the same rows, one column a shape")
+    w = np.ones(len(a)) if weights is None else inputs.numbers("mac: weights", weights, count=len(a), least=0.0)
+    norm_a, norm_b = np.einsum("n,nm->m", w, a**2), np.einsum("n,nm->m", w, b**2)
+    for name, norm in (("first", norm_a), ("second", norm_b)):
+        if np.any(norm == 0.0):
+            raise InputError("mac", int(np.argmin(norm)) + 1, f"this shape of the {name} set is zero")
+    return (a.T @ (w[:, None] * b)) ** 2 / np.outer(norm_a, norm_b)
+
+
+def pairs(criterion: np.ndarray, least: float = 0.5) -> dict[int, int]:
+    """Pair the rows of a criterion with its columns, best first; pairs below `least` are left out.
+
+    Returns
+    -------
+    dict
+        Column by row, both from 0.
+    """
+    from scipy.optimize import linear_sum_assignment
+
+    rows, columns = linear_sum_assignment(-np.asarray(criterion))
+    return {int(r): int(c) for r, c in zip(rows, columns, strict=True) if criterion[r, c] >= least}
