@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from . import decks, inputs
+from . import decks, exchange, inputs
 from .crossing import Crossing, cross
 from .deck import Deck
 from .fleet import vehicle
@@ -165,6 +165,8 @@ def _beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
     content = copy.deepcopy(content)
     train = content.get("train")
     change(content.get("deck"), "file")
+    if isinstance(content.get("deck"), dict):
+        content["deck"] = exchange.beside(content["deck"], folder)
     change(train, "vehicle")
     if isinstance(train, dict) and isinstance(train.get("cars"), list):
         for car in train["cars"]:
@@ -177,7 +179,7 @@ def _deck(raw: Any) -> Deck:
     content = inputs.table("deck", raw)
     if "file" not in content:
         try:
-            return _cached_deck("deck", json.dumps(content, sort_keys=True))
+            return _cached_deck("deck", json.dumps(content, sort_keys=True), *exchange.stamps(content))
         except InputError as error:
             # A deck file's errors name the file; those of a case name the key's path.
             field = error.field.replace(": ", ".")
@@ -193,13 +195,17 @@ def _deck(raw: Any) -> Deck:
         raise InputError("deck.file", error.value, error.allowed, error.remedy) from None
     if path.suffix != ".toml":
         raise InputError("deck.file", str(content["file"]), "deck files are TOML")
-    table = {**inputs.read_toml(path), **{k: v for k, v in content.items() if k != "file"}}
-    return _cached_deck(path.stem, json.dumps(inputs.plain(path.name, table), sort_keys=True))
+    table = exchange.beside(inputs.read_toml(path), path.parent)
+    if isinstance(table.get("modes"), dict) and "modes" in content:
+        # A number of modes beside another program's modes means how many of them.
+        content = {**content, "modes": {**table["modes"], "count": content["modes"]}}
+    table |= {k: v for k, v in content.items() if k != "file"}
+    return _cached_deck(path.stem, json.dumps(inputs.plain(path.name, table), sort_keys=True), *exchange.stamps(table))
 
 
 @lru_cache(maxsize=16)
-def _cached_deck(name: str, content: str) -> Deck:
-    """Make a deck once: a slider that changes the speed must not assemble it again."""
+def _cached_deck(name: str, content: str, *_stamps: int) -> Deck:
+    """Make a deck once: a slider that changes the speed must not assemble it again. Changed files make another deck."""
     return decks.deck_from_table(name, json.loads(content))
 
 

@@ -1,6 +1,6 @@
 """Decks as data: the deck files of ``data/decks`` and the ``[deck]`` of a case.
 
-A deck file says which maker builds the modal deck: a beam from a section or from stiffnesses.
+A deck file says which maker builds the modal deck: a beam from a section or from stiffnesses, or another program's modes.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from . import inputs
+from . import exchange, inputs
 from .beam import Beam
 from .bearings import FARTHEST, FIXITIES, Bearing
 from .deck import Deck, rayleigh
@@ -49,6 +49,7 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
     A beam's keys: ``length`` or ``spans`` (m) and ``continuous``; either ``[section]`` (E, nu, density, A, I_y, I_z, J, shear
     areas) or stiffnesses and ``mass``; ``damping`` = {ratio, frequencies_hz} (Rayleigh) or {modal}; ``modes``; ``[[bearing]]``
     x, y, z, fixed, stiffness, span; ``rotary_inertia``; ``centroid_height``; ``tracks``, ``width``, ``track_height``.
+    With ``modes`` as a table the deck comes from another program's modes; see `exchange`.
 
     Raises
     ------
@@ -56,6 +57,8 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
         Missing, unknown, contradictory or wrong keys, or a mechanism.
     """
     where = f"deck {name}" if name != "deck" else name
+    if isinstance(content.get("modes"), dict):
+        return _from_modes(where, name, content)
     return _from_beam(where, name, content)
 
 
@@ -127,6 +130,14 @@ def bearings(where: str, given: Any, width: float | None = None) -> tuple[Bearin
 def track_height(where: str, content: dict[str, Any]) -> float:
     """Return the height of the rails above the deck axis, m."""
     return inputs.number(f"{where}: track_height", content.get("track_height", 0.0), least=-FARTHEST, most=FARTHEST, unit="m")
+
+
+def _from_modes(where: str, name: str, content: dict[str, Any]) -> Deck:
+    """Build a deck of which only the modes are known; see `exchange`."""
+    inputs.keys(where, content, exchange.FILE_KEYS)
+    tracks, width = _tracks(where, content)
+    damping = _damping(where, inputs.table(f"{where}: damping", content["damping"])) if "damping" in content else None
+    return exchange.deck_from_files(where, content["modes"], damping, name=name, tracks=tracks, width=width)
 
 
 def _tracks(where: str, content: dict[str, Any]) -> tuple[dict[str, float], float | None]:
@@ -204,4 +215,4 @@ def deck(source: str | Path) -> Deck:
     path = inputs.data_file("decks", source)
     if path.suffix != ".toml":
         raise InputError("deck", str(source), "deck files are TOML")
-    return deck_from_table(path.stem, inputs.read_toml(path))
+    return deck_from_table(path.stem, exchange.beside(inputs.read_toml(path), path.parent))

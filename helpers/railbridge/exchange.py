@@ -1,0 +1,919 @@
+r"""Modal models of other finite-element programs: read, checked, put under the rail, and written.
+
+Two tables carry a model. ``nodes.csv``: node, x, y, z. ``modes.csv``: mode, frequency_hz, damping_ratio, node, ux, uy, uz, rx,
+ry, rz, one line for each mode and node; modal_mass where shapes are not mass-normalised. Shapes become SI with
+
+    translation / (u_m M)^(1/2),      rotation / (u_l (u_m M)^(1/2)),
+
+u_l and u_m the units of length and mass in m and kg, M the modal mass (1 for mass-normalised shapes).
+
+From nodes to the rail. The nodes of the rail line give lateral, vertical and twist shapes along x:
+
+* w and v are cubic between neighbouring nodes: Hermite's with w' = -ry and v' = rz where rotations are given, otherwise a
+  cubic spline through the displacements;
+* twist is rx, a parabola through nodes 1-2-3, 3-4-5 and so on (a single last piece takes the last three nodes). Without
+  rx, as in solid models, it is the difference of uz between a left and a right line of nodes. With neither, the deck is
+  rigid in twist;
+* then the line moves to the deck axis as a rigid arm: v = uy + z rx, w = uz - y rx for a node at (y, z) from the axis.
+
+Modes alone give no section forces, reactions or self-weight (`Deck.recovery` is None), and their sum lacks the static
+flexibility of the modes left out.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from . import inputs
+from .deck import Deck, PiecewiseCubic, rayleigh_ratio
+from .inputs import InputError
+
+__all__ = [
+    "FILE_KEYS", "ModalModel", "Nodes", "Orthogonality", "RailLine", "beside", "deck_from_files", "deck_from_modes",
+    "export_modes", "read_columns", "read_modes", "read_nodes", "stamps",
+]  # fmt: skip
+
+PER_METRE = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "in": 1 / 0.0254, "ft": 1 / 0.3048}
+"""Units of length a model may be in. Whole numbers divide without the rounding that a factor 0.001 brings."""
+MASSES = {"kg": 1.0, "t": 1e3, "lb": 0.45359237, "slug": 14.593903}
+"""Units of mass a model may be in, kg. A model in N, mm and s has its masses in t."""
+
+MODEL_KEYS = ("nodes", "modes", "masses", "units", "axes", "rail", "axis", "supports", "count", "unusual")
+FILE_KEYS = ("modes", "damping", "tracks", "width", "name", "source", "note")
+"""Keys of a deck file that is made of modes."""
+
+_PATHS = ("nodes", "modes", "masses")
+_WORST_OVERLAP = 0.1
+_LIKELY_MASS = 100.0, 300e3
+"""Mass per metre of decks, kg/m: foot bridges to ballasted concrete with several tracks, with room to spare."""
+
+
+# ---- tables
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """A CSV file by columns, still as text.
+
+    Attributes
+    ----------
+    name : str
+        Of the file.
+    cells : dict of list of str
+    lines : list of int
+        Line of each row in the file, for messages.
+    units : tuple of str, or None
+        From a line ``# units: mm, t`` above the header.
+    """
+
+    name: str
+    cells: dict[str, list[str]]
+    lines: list[int]
+    units: tuple[str, ...] | None
+
+    def numbers(self, column: str) -> np.ndarray:
+        """Return a column as finite numbers, naming the line of the first that is none."""
+        cells = self.cells[column]
+        try:
+            values = np.array(cells, dtype=float)
+        except ValueError:
+            values = np.array([_float(c) for c in cells])
+        for i in np.flatnonzero(~np.isfinite(values))[:1]:
+            remedy = "Use a point as decimal mark"
+            raise InputError(f"{self.name}: line {self.lines[i]}: {column}", cells[i], "must be a finite number", remedy)
+        return values
+
+    def labels(self, column: str) -> list[str]:
+        """Return a column of node or mode labels; 12 and 12.0 are the same."""
+        return [_label(c) for c in self.cells[column]]
+
+
+def _float(cell: str) -> float:
+    try:
+        return float(cell)
+    except ValueError:
+        return math.nan
+
+
+def _label(value: Any) -> str:
+    text = str(value).strip()
+    number = _float(text)
+    return str(int(number)) if math.isfinite(number) and number == int(number) else text
+
+
+def read_columns(path: str | Path, required: Sequence[str], optional: Sequence[str] = ()) -> Columns:
+    """Read a CSV file with a header; lines that start with # are comments.
+
+    Raises
+    ------
+    InputError
+        No such file, no readable text, a column missing, unknown or given twice, or a row of another length.
+    """
+    path = Path(path)
+    known = [*required, *optional]
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        allowed = "no such file" if isinstance(error, FileNotFoundError) else f"is not a readable text file ({error})"
+        raise InputError("file", path.name, allowed, "A path in a deck file is relative to that file") from None
+    units, rows, lines = None, [], []
+    for number, line in enumerate(text.splitlines(), start=1):
+        if line.lstrip().startswith("#"):
+            key, _, value = line.strip(" #,;\t").partition(":")
+            if key.strip().lower() == "units":
+                units = tuple(value.replace(",", " ").split())
+        elif line.strip(" ,;\t"):
+            rows.append(line)
+            lines.append(number)
+    table = list(csv.reader(rows))
+    header = [h.strip() for h in table[0]] if table else []
+    for column in header:
+        if header.count(column) > 1:
+            raise InputError(f"{path.name}: column {column}", None, "appears more than once")
+        if column not in known:
+            raise InputError(f"{path.name}: column {column}", None, "unknown column", inputs.did_you_mean(column, known))
+    for column in required:
+        if column not in header:
+            raise InputError(f"{path.name}: column {column}", None, "is missing", "Columns: " + ",".join(known))
+    for number, row in zip(lines[1:], table[1:], strict=True):
+        if len(row) != len(header):
+            raise InputError(f"{path.name}: line {number}", ",".join(row), f"must have {len(header)} cells, it has {len(row)}")
+    if len(table) < 2:
+        raise InputError(path.name, None, "holds no rows")
+    columns = zip(*table[1:], strict=True)
+    return Columns(path.name, {h: [c.strip() for c in cells] for h, cells in zip(header, columns, strict=True)}, lines[1:], units)
+
+
+def _units(found: Columns, given: Sequence[str] | None) -> tuple[str, str]:
+    """Return the units of length and mass, which must be stated somewhere and not differently."""
+    stated = found.units if found.units is not None else given
+    where = f"{found.name}: units"
+    if stated is None:
+        raise InputError(where, None, "are stated nowhere", "Add '# units: mm, t' as first line, or give units = ['mm', 't']")
+    if isinstance(stated, str) or len(tuple(stated)) not in (1, 2):
+        raise InputError(where, stated, "must name a length and a mass", "For instance '# units: m, kg'")
+    length, mass = (*stated, "kg")[:2]
+    inputs.choice(f"{where} of length", length, PER_METRE)
+    inputs.choice(f"{where} of mass", mass, MASSES)
+    if given is not None and tuple(given)[: len(stated)] != tuple(stated):
+        raise InputError(where, list(given), f"the file itself says {', '.join(stated)}", "Remove the wrong one")
+    return length, mass
+
+
+def _axes(axes: Sequence[str]) -> np.ndarray:
+    """Return the rotation from model axes to ours, shape (3, 3): row i says which model axis is our x, y, z."""
+    allowed = "must name the model's axes that point forward, left and up"
+    known = {f"{sign}{a}" for a in "xyz" for sign in ("", "-")}
+    if isinstance(axes, str) or len(axes) != 3 or not all(a in known for a in axes):
+        raise InputError("axes", axes, allowed, "A model with y up and x forward has axes = ['x', '-z', 'y']")
+    turn = np.zeros((3, 3))
+    for row, axis in enumerate(axes):
+        turn[row, "xyz".index(axis[-1])] = -1.0 if axis.startswith("-") else 1.0
+    if not np.isclose(np.linalg.det(turn), 1.0):
+        raise InputError("axes", list(axes), f"{allowed}, a right-handed set", "Change the sign of one of them")
+    return turn
+
+
+# ---- nodes and the rail line
+
+
+@dataclass(frozen=True, eq=False)
+class Nodes:
+    """Nodes of a model.
+
+    Attributes
+    ----------
+    labels : tuple of str
+    places : ndarray, shape (n, 3)
+        m, x forward, y left, z up.
+    units : tuple of str
+        Length and mass of the model.
+    turn : ndarray, shape (3, 3)
+        From the model's axes to ours.
+    """
+
+    labels: tuple[str, ...]
+    places: np.ndarray
+    units: tuple[str, str] = ("m", "kg")
+    turn: np.ndarray = field(default_factory=lambda: np.eye(3))
+
+    def line(self, rail: Mapping[str, Any] | None = None, axis: Mapping[str, float] | None = None) -> RailLine:
+        """Return the line of nodes that carries the rail.
+
+        Parameters
+        ----------
+        rail : mapping, optional
+            ``{"y": 0.0, "z": 1.2}`` (m; one may be left out, and ``within``, default 0.01 m), or ``{"nodes": [1, 2, ...]}``; or
+            ``{"left": .., "right": ..}``, each like that. Default: all nodes, if they form one line.
+        axis : mapping, optional
+            y and z of the deck axis (m) from which tracks are measured; default the line's own, or midway between two.
+
+        Raises
+        ------
+        InputError
+            Fewer than three nodes, two at one x, or left and right nodes that do not stand side by side.
+        """
+        rail = {} if rail is None else inputs.table("rail", rail)
+        if "left" in rail or "right" in rail:
+            inputs.keys("rail", rail, [], ["left", "right"])
+            picked = [self._pick(f"rail.{side}", inputs.table(f"rail.{side}", rail[side])) for side in ("left", "right")]
+        else:
+            picked = [self._pick("rail", rail)]
+        if len({len(p) for p in picked}) > 1:
+            raise InputError("rail", None, f"holds {len(picked[0])} left and {len(picked[1])} right nodes, must be pairs")
+        index = np.array(picked).T
+        x, y, z = np.moveaxis(self.places[index], -1, 0)
+        length = float(x[-1, 0] - x[0, 0])
+        for i in np.flatnonzero(np.ptp(x, axis=1) > 1e-3 * length)[:1]:
+            pair = [self.labels[p] for p in index[i]]
+            raise InputError("rail", pair, "left and right nodes must stand at the same x", "Choose two lines of one mesh")
+        if len(picked) == 2 and np.any(y[:, 0] - y[:, 1] < 1e-3):
+            raise InputError("rail.left", float(y[0, 0]), "must stand left of rail.right, at larger y", "Exchange them?")
+        axis = {} if axis is None else inputs.table("axis", axis)
+        inputs.keys("axis", axis, ["y", "z"])
+        origin = [inputs.number(f"axis.{k}", axis.get(k, float(v.mean())), unit="m") for k, v in (("y", y), ("z", z))]
+        labels = tuple(tuple(self.labels[p] for p in pair) for pair in index)
+        return RailLine(labels, x[:, 0] - x[0, 0], y - origin[0], z - origin[1], self.units, self.turn)
+
+    def _pick(self, where: str, choice: dict[str, Any]) -> list[int]:
+        """Return the nodes of one line, ascending in x."""
+        inputs.keys(where, choice, ["y", "z", "within", "nodes"])
+        if "nodes" in choice:
+            inputs.keys(where, choice, ["nodes"])
+            if isinstance(choice["nodes"], (str, bytes)):
+                raise InputError(f"{where}.nodes", choice["nodes"], "must be a list of nodes")
+            place = {label: i for i, label in enumerate(self.labels)}
+            wanted = [_label(n) for n in choice["nodes"]]
+            for label in wanted:
+                if label not in place:
+                    raise InputError(f"{where}.nodes", label, "is no node of the model", inputs.did_you_mean(label, place))
+                if wanted.count(label) > 1:
+                    raise InputError(f"{where}.nodes", label, "is listed more than once")
+            found = [place[label] for label in wanted]
+        else:
+            within = inputs.number(f"{where}.within", choice.get("within", 0.01), above=0.0, unit="m")
+            near = np.ones(len(self.labels), dtype=bool)
+            for key, column in (("y", 1), ("z", 2)):
+                if key in choice:
+                    near &= np.abs(self.places[:, column] - inputs.number(f"{where}.{key}", choice[key], unit="m")) <= within
+            found = np.flatnonzero(near).tolist()
+        if len(found) < 3:
+            allowed = f"holds {len(found)} nodes, must be at least 3"
+            raise InputError(where, choice or None, allowed, "Check y and z (in m), or widen 'within'")
+        found.sort(key=lambda i: self.places[i, 0])
+        x = self.places[found, 0]
+        for i in np.flatnonzero(np.diff(x) < 1e-6 * max(x[-1] - x[0], 1e-9))[:1]:
+            pair = [self.labels[found[i]], self.labels[found[i + 1]]]
+            raise InputError(where, pair, f"two nodes stand at x = {x[i]:g} m", "Merge them, or list the rail's nodes one by one")
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class RailLine:
+    """The nodes under a rail or under a pair of rails, first to last along the deck.
+
+    Attributes
+    ----------
+    labels : tuple of tuple of str, shape (n, k)
+        One node, or a left and a right one (k = 2), at each place.
+    x : ndarray, shape (n,)
+        m from the first.
+    y, z : ndarray, shape (n, k)
+        m from the deck axis.
+    units, turn
+        See `Nodes`.
+    """
+
+    labels: tuple[tuple[str, ...], ...]
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+    units: tuple[str, str]
+    turn: np.ndarray
+
+    @property
+    def nodes(self) -> tuple[str, ...]:
+        """All labels in one row: place by place, left before right."""
+        return tuple(label for pair in self.labels for label in pair)
+
+    @property
+    def length(self) -> float:
+        """First to last node, m."""
+        return float(self.x[-1])
+
+    @property
+    def paired(self) -> bool:
+        """Whether a left and a right line carry the rail."""
+        return self.y.shape[1] == 2
+
+    def middle(self, y: np.ndarray, z: np.ndarray, roll: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return lateral, vertical motion and twist of the line's middle from those of its nodes, each shape (..., n).
+
+        Of one node they are its own. Of a pair: the mean of uy, uz on the straight line between both at y = 0, and as twist the
+        difference of uz over the distance; `roll` is then not used.
+        """
+        if not self.paired:
+            return y[..., 0], z[..., 0], roll[..., 0]
+        twist = (z[..., 0] - z[..., 1]) / (self.y[:, 0] - self.y[:, 1])
+        return y.mean(axis=-1), z[..., 0] - twist * self.y[:, 0], twist
+
+    @property
+    def arm(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return y and z of the line's middle from the deck axis, m, each shape (n,)."""
+        return (np.zeros(len(self.x)) if self.paired else self.y[:, 0]), self.z.mean(axis=1)
+
+    def to_axis(self, functions: np.ndarray) -> np.ndarray:
+        """Move piecewise functions from the line's middle to the deck axis: v = uy + z rx, w = uz - y rx.
+
+        Parameters
+        ----------
+        functions : ndarray, shape (n - 1, 4, m, 3)
+            See `PiecewiseCubic`; twist at most quadratic where y or z changes along the line.
+        """
+        y, z = self.arm
+        result = functions.copy()
+        twist = functions[..., 2]
+        for component, arm in ((0, z), (1, -y)):
+            start, slope = arm[:-1, None, None], np.diff(arm)[:, None, None]
+            result[..., component] += start * twist
+            result[:, 1:, :, component] += slope * twist[:, :-1]
+        return result
+
+
+def spline(x: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return the cubic spline through values, shape (m, n), as coefficients of local powers, shape (n - 1, 4, m)."""
+    found = CubicSpline(x, values, axis=-1).c[::-1]
+    return np.moveaxis(found * np.diff(x)[None, :, None] ** np.arange(4)[:, None, None], 1, 0)
+
+
+def hermite(x: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """Return cubics with given values and slopes at the nodes, each shape (m, n), as coefficients, shape (n - 1, 4, m)."""
+    h = np.diff(x)
+    a, b, da, db = values[:, :-1], values[:, 1:], h * slopes[:, :-1], h * slopes[:, 1:]
+    return np.stack([a, da, 3 * (b - a) - 2 * da - db, 2 * (a - b) + da + db]).transpose(2, 0, 1)
+
+
+def parabolas(x: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return parabolas through nodes 1-2-3, 3-4-5, ...; the last three where one piece is left. Shapes as in `hermite`."""
+    pieces = len(x) - 1
+    result = np.zeros((pieces, 4, len(values)))
+    for e in range(pieces):
+        first = min(e - e % 2, pieces - 2)
+        here = x[first : first + 3]
+        h, local = x[e + 1] - x[e], here - x[e]
+        powers = np.linalg.solve(np.vander(local / h, 3, increasing=True), values[:, first : first + 3].T)
+        result[e, :3] = powers
+    return result
+
+
+# ---- modes
+
+
+@dataclass(frozen=True)
+class Orthogonality:
+    """How far from orthogonal the modes of a model are.
+
+    Attributes
+    ----------
+    worst : float
+        Largest of abs(phi_i M phi_j) / sqrt((phi_i M phi_i) (phi_j M phi_j)); zero for exact modes.
+    pair : tuple of str
+        The modes it stands between.
+    known_masses : bool
+        Whether M is the model's, or equal masses at all nodes for want of them.
+    own : ndarray, shape (m,)
+        phi_i M phi_i, which is 1 for mass-normalised modes; NaN without masses.
+    """
+
+    worst: float
+    pair: tuple[str, str]
+    known_masses: bool
+    own: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class ModalModel:
+    """Natural modes of a finite-element model, SI, our axes.
+
+    Attributes
+    ----------
+    nodes : Nodes
+    frequencies_hz : ndarray, shape (m,)
+        Ascending.
+    damping_ratios : ndarray, shape (m,)
+        NaN where the file gives none.
+    labels : tuple of str
+        The modes as the file calls them.
+    names : tuple of str, or None
+        Column ``name``.
+    shapes : ndarray, shape (m, n, 6)
+        Mass-normalised ux, uy, uz, rx, ry, rz (1/sqrt(kg), 1/(m sqrt(kg))); NaN at nodes that the modes leave out.
+    rotations : tuple of bool
+        Whether rx, ry, rz are known.
+    masses : ndarray, shape (n, 4), or None
+        Mass (kg) and inertia about x, y, z (kg m2) of every node.
+    """
+
+    nodes: Nodes
+    frequencies_hz: np.ndarray
+    damping_ratios: np.ndarray
+    labels: tuple[str, ...]
+    names: tuple[str, ...] | None
+    shapes: np.ndarray
+    rotations: tuple[bool, bool, bool]
+    masses: np.ndarray | None = None
+
+    def to_frame(self):
+        """Return a pandas DataFrame with one row a mode."""
+        import pandas as pd
+
+        columns = {"frequency (Hz)": self.frequencies_hz, "damping ratio": self.damping_ratios}
+        return pd.DataFrame(columns, index=pd.Index(self.labels, name="mode"))
+
+    def orthogonality(self) -> Orthogonality:
+        """Compare every two modes over the nodal masses, or over equal masses where none are known.
+
+        Wrong when: without masses on meshes of uneven density, where true modes may overlap by tens of per cent.
+        """
+        there = np.isfinite(self.shapes[0, :, 0])
+        masses = self.masses[there] if self.masses is not None else np.ones((there.sum(), 1)) * [1.0, 0.0, 0.0, 0.0]
+        weights = np.sqrt(np.concatenate([np.repeat(masses[:, :1], 3, axis=1), masses[:, 1:]], axis=1))
+        # Weighted by the roots first: small entries then do not vanish beside large ones.
+        weighted = (self.shapes[:, there] * weights).reshape(len(self.labels), -1)
+        gram = weighted @ weighted.T
+        own = np.diag(gram).copy()
+        # A mode of pure rotation where no inertia is known has nothing to compare.
+        moving = own > (0.1 if self.masses is not None else 1e-12 * own.max())
+        size = np.sqrt(np.where(moving, own, np.inf))
+        overlap = np.abs(np.triu(gram / np.outer(size, size), 1))
+        i, j = np.unravel_index(np.argmax(overlap), overlap.shape)
+        known = self.masses is not None
+        return Orthogonality(
+            float(overlap[i, j]), (self.labels[i], self.labels[j]), known, own if known else np.full_like(own, np.nan)
+        )
+
+
+def read_nodes(path: str | Path, units: Sequence[str] | None = None, axes: Sequence[str] = ("x", "y", "z")) -> Nodes:
+    """Read ``nodes.csv``: node, x, y, z.
+
+    Parameters
+    ----------
+    path : str or Path
+    units : (length, mass), optional
+        For instance ``("mm", "t")``; not needed where the file has a line ``# units: mm, t``.
+    axes : three of x, -x, y, -y, z, -z
+        Which axes of the model point forward, left and up; ``("x", "-z", "y")`` for a model with y up.
+
+    Raises
+    ------
+    InputError
+        No units, unreadable rows, or a node given twice.
+    """
+    table = read_columns(path, ["node", "x", "y", "z"])
+    length, mass = _units(table, units)
+    labels = table.labels("node")
+    _refuse_repeats(table, labels)
+    turn = _axes(axes)
+    places = np.stack([table.numbers(c) for c in "xyz"], axis=1) / PER_METRE[length] @ turn.T
+    return Nodes(tuple(labels), inputs.frozen(places), (length, mass), turn)
+
+
+def _refuse_repeats(table: Columns, labels: list[str]) -> None:
+    seen: dict[str, int] = {}
+    for line, label in zip(table.lines, labels, strict=True):
+        if label in seen:
+            allowed = f"is given twice, in lines {seen[label]} and {line}"
+            raise InputError(f"{table.name}: node", label, allowed, "Remove or rename one; every node has one place")
+        seen[label] = line
+
+
+def read_modes(
+    nodes: str | Path | Nodes,
+    modes: str | Path,
+    masses: str | Path | None = None,
+    units: Sequence[str] | None = None,
+    axes: Sequence[str] = ("x", "y", "z"),
+) -> ModalModel:
+    """Read a modal model of any finite-element program.
+
+    Parameters
+    ----------
+    nodes, modes : str or Path
+        See the module; rotations, ``damping_ratio``, ``modal_mass`` and ``name`` are optional columns.
+    masses : str or Path, optional
+        node, mass, and optionally inertia_x, inertia_y, inertia_z: then orthogonality is checked.
+    units, axes
+        See `read_nodes`.
+
+    Raises
+    ------
+    InputError
+        Nodes missing in a mode or given twice, a frequency that is not positive or not the same in all rows of a mode, or,
+        with masses, modes that are not orthogonal (the worst pair is named) or not mass-normalised.
+    """
+    if not isinstance(nodes, Nodes):
+        nodes = read_nodes(nodes, units, axes)
+    shape_columns = ["ux", "uy", "uz"]
+    rotation_columns = ["rx", "ry", "rz"]
+    table = read_columns(
+        modes,
+        ["mode", "frequency_hz", "node", *shape_columns],
+        ["damping_ratio", "modal_mass", "name", *rotation_columns],
+    )
+    length, mass = _units(table, units or nodes.units)
+    if (length, mass) != nodes.units:
+        raise InputError(f"{table.name}: units", [length, mass], f"the nodes are in {', '.join(nodes.units)}")
+    place = {label: i for i, label in enumerate(nodes.labels)}
+    order, rows = _rows_of_modes(table, place)
+    frequencies = _same_in_mode(table, "frequency_hz", order, rows)
+    for label, f in zip(order, frequencies, strict=True):
+        remedy = "A mode of 0 Hz is a free body: hold the deck by its bearings"
+        inputs.number(f"{table.name}: mode {label}: frequency_hz", f, above=1e-6, unit="Hz", remedy=remedy)
+    damping = np.full(len(order), np.nan)
+    if "damping_ratio" in table.cells and any(table.cells["damping_ratio"]):
+        damping = _same_in_mode(table, "damping_ratio", order, rows)
+        remedy = "Give 0.03 for 3 %"
+        inputs.number(f"{table.name}: mode {order[0]}: damping_ratio", damping[0], least=0.0, most=0.5, remedy=remedy)
+        inputs.numbers(f"{table.name}: damping_ratio", damping, least=0.0)
+    modal_mass = np.ones(len(order))
+    if "modal_mass" in table.cells:
+        modal_mass = inputs.numbers(f"{table.name}: modal_mass", _same_in_mode(table, "modal_mass", order, rows), above=0.0)
+    values = np.zeros((len(table.lines), 6))
+    for i, column in enumerate([*shape_columns, *rotation_columns]):
+        if column in table.cells:
+            values[:, i] = table.numbers(column)
+    # Programs with solid elements print rotations as zeros: none at all are none known.
+    known = np.abs(values[:, 3:]).max(axis=0) > 0.0
+    values = np.concatenate([values[:, :3] @ nodes.turn.T, values[:, 3:] @ nodes.turn.T * PER_METRE[length]], axis=1)
+    shapes = np.full((len(order), len(nodes.labels), 6), np.nan)
+    index = np.array([place[label] for label in table.labels("node")])
+    for i, own in enumerate(rows):
+        shapes[i, index[own]] = values[own] / np.sqrt(modal_mass[i] * MASSES[mass])
+    ascending = np.argsort(frequencies, kind="stable")
+    names = None
+    if "name" in table.cells:
+        names = tuple(table.cells["name"][rows[i][0]] for i in ascending)
+    model = ModalModel(
+        nodes,
+        inputs.frozen(frequencies[ascending]),
+        inputs.frozen(damping[ascending]),
+        tuple(order[i] for i in ascending),
+        names,
+        inputs.frozen(shapes[ascending]),
+        tuple(bool(k) for k in np.abs(nodes.turn) @ known > 0.5),
+        None if masses is None else _read_masses(masses, nodes, shapes, units),
+    )
+    _refuse_overlap(model, table.name)
+    return model
+
+
+def _rows_of_modes(table: Columns, place: Mapping[str, int]) -> tuple[list[str], list[np.ndarray]]:
+    """Return the modes in the file's order and the rows of each; every mode must have the same nodes, each once."""
+    modes, nodes = table.labels("mode"), table.labels("node")
+    rows: dict[str, list[int]] = {}
+    for i, (mode, node) in enumerate(zip(modes, nodes, strict=True)):
+        if node not in place:
+            where = f"{table.name}: line {table.lines[i]}: node"
+            raise InputError(where, node, "is not among the nodes", inputs.did_you_mean(node, place))
+        rows.setdefault(mode, []).append(i)
+    whole = set(nodes)
+    for mode, own in rows.items():
+        here = [nodes[i] for i in own]
+        missing = sorted(whole - set(here), key=list(place).index)
+        if missing:
+            listed = ", ".join(missing[:5]) + (" ..." if len(missing) > 5 else "")
+            allowed = f"lacks {len(missing)} of the nodes that other modes have: {listed}"
+            raise InputError(f"{table.name}: mode {mode}", None, allowed, "Write every mode at the same nodes")
+        if len(here) != len(whole):
+            double = next(n for n in here if here.count(n) > 1)
+            raise InputError(f"{table.name}: mode {mode}: node", double, "is given twice", "One line for each mode and node")
+    return list(rows), [np.array(own) for own in rows.values()]
+
+
+def _same_in_mode(table: Columns, column: str, order: list[str], rows: list[np.ndarray]) -> np.ndarray:
+    """Return one value for each mode; all its rows must agree."""
+    values = table.numbers(column)
+    for mode, own in zip(order, rows, strict=True):
+        if np.ptp(values[own]) > 1e-9 * np.abs(values[own]).max():
+            pair = [float(values[own].min()), float(values[own].max())]
+            raise InputError(f"{table.name}: mode {mode}: {column}", pair, "differs between rows of the same mode")
+    return np.array([values[own[0]] for own in rows])
+
+
+def _read_masses(path: str | Path, nodes: Nodes, shapes: np.ndarray, units: Sequence[str] | None) -> np.ndarray:
+    inertias = ["inertia_x", "inertia_y", "inertia_z"]
+    table = read_columns(path, ["node", "mass"], inertias)
+    length, mass = _units(table, units or nodes.units)
+    labels = table.labels("node")
+    _refuse_repeats(table, labels)
+    place = {label: i for i, label in enumerate(nodes.labels)}
+    result = np.zeros((len(nodes.labels), 4))
+    for i, column in enumerate(["mass", *inertias]):
+        if column in table.cells:
+            factor = MASSES[mass] * (PER_METRE[length] ** -2 if i else 1.0)
+            for label, value in zip(labels, table.numbers(column), strict=True):
+                if label not in place:
+                    raise InputError(f"{table.name}: node", label, "is not among the nodes", inputs.did_you_mean(label, place))
+                result[place[label], i] = inputs.number(f"{table.name}: node {label}: {column}", value * factor, least=0.0)
+    result[:, 1:] = result[:, 1:] @ np.abs(nodes.turn).T
+    lost = result[~np.isfinite(shapes[0, :, 0]), 0].sum() / max(result[:, 0].sum(), 1e-30)
+    if lost > 0.01:
+        allowed = f"{lost:.0%} of the mass stands at nodes that the modes leave out, so orthogonality cannot be checked"
+        raise InputError(table.name, None, allowed, "Write the modes at all nodes, or leave the masses out")
+    return inputs.frozen(result)
+
+
+def _refuse_overlap(model: ModalModel, name: str) -> None:
+    """Refuse modes that are not orthogonal or, with masses, not mass-normalised; without masses only warn."""
+    found = model.orthogonality()
+    i, j = (model.labels.index(label) for label in found.pair)
+    pair = f"modes {found.pair[0]} and {found.pair[1]}"
+    f1, f2 = model.frequencies_hz[[i, j]]
+    if found.known_masses:
+        if found.worst > _WORST_OVERLAP:
+            allowed = f"{found.worst:.2g} of their mass products is shared, at most {_WORST_OVERLAP:g}: they are not orthogonal"
+            raise InputError(f"{name}: {pair}", None, allowed, "Is a mode given twice, or are the masses of another model?")
+        whole = found.own[found.own > 0.1]
+        off = whole[np.argmax(np.abs(np.log(whole)))] if len(whole) else 0.0
+        if not 0.5 < off < 2.0:
+            allowed = f"phi M phi is {off:.3g} for a mode, must be about 1: not mass-normalised, or masses in another unit"
+            raise InputError(name, None, allowed, "Add the column modal_mass, or correct the units")
+        if abs(off - 1.0) > 0.1:
+            warnings.warn(f"{name}: phi M phi of a mode is {off:.3g} over the given masses instead of 1.", stacklevel=3)
+    elif found.worst > 0.9999 and abs(f1 - f2) < 1e-4 * f2:
+        raise InputError(f"{name}: {pair}", None, "have one shape and one frequency: a mode is given twice", "Remove one")
+    elif found.worst > 0.5:
+        warnings.warn(
+            f"{name}: {pair} overlap by {found.worst:.2f} over equal masses at all nodes. Give the nodal masses to have this "
+            "checked properly.",
+            stacklevel=3,
+        )
+
+
+# ---- the deck
+
+
+def deck_from_modes(
+    model: ModalModel,
+    line: RailLine,
+    name: str = "deck",
+    damping: tuple[float, float] | float | None = None,
+    *,
+    count: int | None = None,
+    tracks: Mapping[str, float] | None = None,
+    width: float | None = None,
+    supports: Sequence[float] = (),
+    unusual: bool = False,
+) -> Deck:
+    """Return the modal deck that a model makes under its rail line.
+
+    Parameters
+    ----------
+    model : ModalModel
+    line : RailLine
+        From ``model.nodes.line(...)``.
+    name : str
+    damping : (alpha, beta) of Rayleigh, or one ratio, optional
+        Instead of the file's own; needed where it has none.
+    count : int, optional
+        How many of the lowest modes that move the rail are kept; all if not given.
+    tracks, width, supports
+        See `Deck`; places of bearing lines in m from the first node are only drawn.
+    unusual : bool
+        Accept frequencies and masses beyond those of bridges.
+
+    Raises
+    ------
+    InputError
+        Rail nodes that the modes leave out, no damping, or a first frequency or mass per metre so far from those of bridges that
+        the units must be wrong.
+    """
+    place = {label: i for i, label in enumerate(model.nodes.labels)}
+    index = np.array([[place[label] for label in pair] for pair in line.labels])
+    shapes = model.shapes[:, index]
+    for i, j in np.argwhere(~np.isfinite(shapes[0, :, :, 0]))[:1]:
+        raise InputError("rail", line.labels[i][j], "is a node of the rail that the modes leave out", "Write the modes there too")
+    functions = PiecewiseCubic(line.x, line.to_axis(_along(line, shapes, model.rotations)))
+    size = _sizes(functions)
+    moving = np.flatnonzero(np.sqrt(size.sum(axis=1) / size.sum(axis=1).max()) > 1e-6)
+    kept = moving[: inputs.integer("modes.count", count, least=1, most=len(moving)) if count is not None else None]
+    frequencies = model.frequencies_hz[kept]
+    _refuse_units(line, supports, frequencies, size[kept], unusual)
+    if damping is not None:
+        ratios = np.full(len(kept), damping) if np.isscalar(damping) else rayleigh_ratio(*damping, frequencies)
+    elif np.isfinite(model.damping_ratios).all():
+        ratios = model.damping_ratios[kept]
+    else:
+        remedy = "Add the column damping_ratio to the modes, or damping = { modal = 0.01 } to the deck"
+        raise InputError("damping", None, "is missing", remedy)
+    return Deck(
+        name=name,
+        length=line.length,
+        frequencies_hz=frequencies,
+        damping_ratios=ratios,
+        mode_names=_names(model, size, kept),
+        shapes=PiecewiseCubic(functions.edges, functions.coefficients[:, :, kept]),
+        supports=tuple(float(x) for x in supports),
+        tracks=dict(tracks or {}),
+        width=width,
+    )
+
+
+def _along(line: RailLine, shapes: np.ndarray, rotations: tuple[bool, bool, bool]) -> np.ndarray:
+    """Return the shapes along the middle of the line, shape (n - 1, 4, m, 3), from those of its nodes, shape (m, n, k, 6)."""
+    _, uy, uz, rx, ry, rz = np.moveaxis(shapes, -1, 0)
+    values = line.middle(uy, uz, rx)
+    slopes = line.middle(rz, -ry, np.zeros_like(rx))
+    known = rotations[2], rotations[1], rotations[1] and line.paired
+    result = np.zeros((len(line.x) - 1, 4, len(shapes), 3))
+    for c, (value, slope, given) in enumerate(zip(values, slopes, known, strict=True)):
+        if c == 2 and not line.paired:
+            result[..., c] = parabolas(line.x, value)
+        elif given and _agree(line.x, value, slope, "uy uz rx".split()[c]):
+            result[..., c] = hermite(line.x, value, slope)
+        else:
+            _warn_of_few_nodes(value, "uy uz rx".split()[c])
+            result[..., c] = spline(line.x, value)
+    return result
+
+
+def _agree(x: np.ndarray, values: np.ndarray, slopes: np.ndarray, name: str) -> bool:
+    """Whether rotations are slopes of the displacements, in the mode where they fit best; if not, warn and do without.
+
+    Drilling rotations of shells, slender beams' sign conventions and shear-flexible beams are the usual reasons.
+    """
+    from_values = CubicSpline(x, values, axis=-1)(x, 1)
+    size = np.linalg.norm(from_values, axis=1)
+    bent = size > 1e-3 * size.max()
+    if not bent.any():
+        return True
+    misfit = np.linalg.norm(slopes - from_values, axis=1)[bent] / size[bent]
+    if misfit.min() < 0.2:
+        return True
+    rotation = {"uy": "rz", "uz": "-ry", "rx": "the twist of ry"}[name]
+    warnings.warn(
+        f"modes: {rotation} is not the slope of {name} along the rail (off by {misfit.min():.0%} at best), so the slopes are taken "
+        "from the displacements.",
+        stacklevel=5,
+    )
+    return False
+
+
+def _warn_of_few_nodes(values: np.ndarray, name: str) -> None:
+    """Warn of modes with more than one change of sign in three nodes: a spline cannot follow them."""
+    large = np.abs(values) > 1e-3 * np.abs(values).max(axis=1, keepdims=True)
+    changes = [(np.diff(np.sign(v[use])) != 0).sum() for v, use in zip(values, large, strict=True)]
+    if max(changes) > values.shape[1] / 3:
+        mode = int(np.argmax(changes)) + 1
+        warnings.warn(
+            f"modes: the {values.shape[1]} nodes of the rail are few for {name} of mode {mode}, which changes sign "
+            f"{max(changes)} times. Use a finer line, fewer modes, or write rotations too.",
+            stacklevel=5,
+        )
+
+
+def _sizes(functions: PiecewiseCubic) -> np.ndarray:
+    """Return the integrals of v^2, w^2 and (1.5 m twist)^2 along the rail, shape (m, 3)."""
+    points, weights = np.polynomial.legendre.leggauss(4)
+    h = np.diff(functions.edges)
+    x = (functions.edges[:-1, None] + h[:, None] * (points + 1) / 2).ravel()
+    values = functions(x) * [1.0, 1.0, 1.5]
+    return np.einsum("k,kmc->mc", (h[:, None] * weights / 2).ravel(), values**2)
+
+
+def _names(model: ModalModel, size: np.ndarray, kept: np.ndarray) -> tuple[str, ...]:
+    """Return the model's names, or name modes by their largest motion along the rail."""
+    if model.names is not None:
+        return tuple(model.names[i] for i in kept)
+    seen, names = {}, []
+    for i in kept:
+        label = ("lateral", "vertical", "torsion")[int(np.argmax(size[i]))]
+        seen[label] = seen.get(label, 0) + 1
+        names.append(f"{label} {seen[label]}")
+    return tuple(names)
+
+
+def _refuse_units(line: RailLine, supports: Sequence[float], frequencies: np.ndarray, size: np.ndarray, unusual: bool) -> None:
+    """Refuse a first frequency or a mass per metre beyond those of bridges by orders of magnitude.
+
+    First frequencies of simple spans L (m) lie between 80 / L (to 20 m) or 23.58 L^-0.592 and 94.76 L^-0.748 Hz (EN 1991-2,
+    6.4.4). A mass-normalised mode in which the deck moves as a whole has an integral of phi^2 of about 1 / mass per metre.
+    """
+    span = float(np.max(np.diff(np.sort(supports)))) if len(supports) > 1 else line.length
+    low, high = (80 / span if span <= 20 else 23.58 * span**-0.592), 94.76 * span**-0.748
+    low, high = min(low, high), max(low, high)
+    first = float(frequencies[0])
+    off = max(low / first, first / high)
+    usual = f"bridges of {span:.3g} m have about {low:.2g} to {high:.2g} Hz"
+    if off > 10 and not unusual:
+        allowed = f"lies an order of magnitude away: {usual}"
+        remedy = "Check the units of length (mm or m?) and of frequency (Hz, not rad/s); unusual = true if the deck is so"
+        raise InputError("modes: first frequency", first, allowed, remedy)
+    if off > 3:
+        warnings.warn(f"modes: first frequency {first:.3g} Hz: {usual}. Are the units right (rad/s?)", stacklevel=4)
+    vertical = np.flatnonzero(np.argmax(size, axis=1) == 1)
+    mass = 1.0 / size[vertical[0], 1] if len(vertical) else 1.0 / size[0].max()
+    if not _LIKELY_MASS[0] < mass < _LIKELY_MASS[1] and not unusual:
+        allowed = f"make the deck {mass:.3g} kg per metre, bridges have {_LIKELY_MASS[0]:g} to {_LIKELY_MASS[1]:g}"
+        remedy = "Check the unit of mass (kg or t?); shapes scaled to a largest value of 1 need the column modal_mass"
+        raise InputError("modes: shapes", None, allowed, remedy)
+
+
+# ---- deck files
+
+
+def beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Make the paths of a modal deck file, which are relative to it, paths that can be opened from here."""
+    own = content.get("modes")
+    if not isinstance(own, dict):
+        return content
+    opened = {k: str(folder / v) if k in _PATHS and isinstance(v, str) else v for k, v in own.items()}
+    return {**content, "modes": opened}
+
+
+def stamps(content: Mapping[str, Any]) -> list[int]:
+    """Return times and sizes of the files of a modal deck file: what is kept of them is out of date when these change."""
+    own = content.get("modes")
+    paths = [Path(own[k]) for k in _PATHS if isinstance(own.get(k), str)] if isinstance(own, Mapping) else []
+    found = [path.stat() for path in paths if path.is_file()]
+    return [n for s in found for n in (s.st_mtime_ns, s.st_size)]
+
+
+def deck_from_files(where: str, content: Mapping[str, Any], damping: tuple[float, float] | float | None, **own: Any) -> Deck:
+    """Build the deck of a deck file's ``modes`` table.
+
+    Parameters
+    ----------
+    where : str
+        For messages.
+    content : mapping
+        ``nodes``, ``modes`` (paths), and optionally ``masses``, ``units``, ``axes``, ``rail``, ``axis``, ``supports``,
+        ``count``, ``unusual``.
+    damping, own
+        See `deck_from_modes`.
+    """
+    inputs.keys(f"{where}: modes", content, MODEL_KEYS, ["nodes", "modes"])
+    with inputs.within(f"{where}: modes"):
+        paths = {k: inputs.text(k, content[k]) for k in _PATHS if k in content}
+        options = {k: content[k] for k in ("units", "axes") if k in content}
+        model = read_modes(**paths, **options)
+        line = model.nodes.line(content.get("rail"), content.get("axis"))
+        unusual = inputs.boolean("unusual", content.get("unusual", False))
+        supports = inputs.numbers("supports", content.get("supports", ()), least=0.0, most=line.length, unit="m").tolist()
+        own.update(supports=supports, count=content.get("count"), unusual=unusual)
+        return deck_from_modes(model, line, damping=damping, **own)
+
+
+def export_modes(deck: Deck, folder: str | Path, units: tuple[str, str] = ("m", "kg")) -> Path:
+    """Write a deck's modes as ``nodes.csv``, ``modes.csv`` and the ``deck.toml`` that reads them back; return the last.
+
+    Nodes stand at the ends and in the middle of every piece of the shapes, so that cubics (from values and slopes) and the
+    parabolas of twist (from three nodes) come back exactly. ``ux`` is zero: a deck knows no motion along the track.
+
+    Wrong when: shapes whose slope jumps between pieces (shear-flexible beams), which come back with the mean slope.
+    """
+    folder = Path(folder)
+    per_metre, mass = PER_METRE[units[0]], math.sqrt(MASSES[units[1]])
+    edges = deck.shapes.edges
+    x = np.sort(np.concatenate([edges, (edges[:-1] + edges[1:]) / 2]))
+    value, slope = deck.shapes(x), deck.shapes(x, 1)
+    slope[2:-1:2] = (slope[2:-1:2] + deck.shapes(np.nextafter(edges[1:-1], 0.0), 1)) / 2
+    columns = np.zeros((len(x), len(deck.frequencies_hz), 6))
+    columns[..., 1:3], columns[..., 3] = value[..., :2] * mass, value[..., 2] * mass / per_metre
+    columns[..., 4], columns[..., 5] = -slope[..., 1] * mass / per_metre, slope[..., 0] * mass / per_metre
+    head = f"# units: {units[0]}, {units[1]}\n"
+    nodes = [f"{i},{_text(place * per_metre)},0,0\n" for i, place in enumerate(x, start=1)]
+    rows = []
+    for m, (f, ratio, name) in enumerate(zip(deck.frequencies_hz, deck.damping_ratios, deck.mode_names, strict=True)):
+        start = f"{m + 1},{_text(f)},{_text(ratio)},{name},"
+        rows += [f"{start}{i},{','.join(map(_text, row))}\n" for i, row in enumerate(columns[:, m], start=1)]
+    toml = [f"name = {json.dumps(deck.name)}\n", 'note = "modes only: no section forces, reactions or self-weight"\n']
+    toml += [f"width = {_text(deck.width)}\n"] if deck.width else []
+    toml += ["\n[modes]\n", 'nodes = "nodes.csv"\n', 'modes = "modes.csv"\n', "unusual = true\n"]
+    toml += [f"supports = [{', '.join(map(_text, deck.supports))}]\n"] if deck.supports else []
+    toml += ["\n[tracks]\n", *[f"{json.dumps(k)} = {_text(y)}\n" for k, y in deck.tracks.items()]] if deck.tracks else []
+    header = "mode,frequency_hz,damping_ratio,name,node,ux,uy,uz,rx,ry,rz\n"
+    files = {
+        "nodes.csv": [head, "node,x,y,z\n", *nodes],
+        "modes.csv": [head, header, *rows],
+        "deck.toml": toml,
+    }
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in files.items():
+        (folder / name).write_text("".join(text), encoding="utf-8", newline="\n")
+    return folder / "deck.toml"
+
+
+def _text(value: float) -> str:
+    """Return a number with all its digits."""
+    return repr(float(value))
