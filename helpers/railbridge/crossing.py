@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from . import inputs
-from .deck import REACTION_QUANTITIES, SECTION_QUANTITIES, Deck, History, Line, Recovery
+from .deck import BEARING_QUANTITIES, REACTION_QUANTITIES, SECTION_QUANTITIES, Deck, History, Line, Recovery
 from .direct import direct
 from .inputs import InputError
 from .interaction import Coupling, DeckState, Delta, iterate, prepare
@@ -115,16 +115,8 @@ class Crossing:
 
         Order of wheels as in ``train.wheels``. After a car has left the deck its motion decays freely on the track.
         """
-        rows = []
-        for car, (rigid, static) in enumerate(zip(self.coupling.rigid, self.coupling.static, strict=True)):
-            total = rigid + static[:, None]
-            window = self.coupling.windows[car]
-            delta = self.passes[self.shown][car]
-            total[:, window] += delta
-            if self.shown > 0 and window.stop < total.shape[1] and len(self.train.groups()) > 0:
-                total[:, window.stop :] += self.coupling.decay(self._felt, car)
-            rows.append(total.reshape(-1, 2, total.shape[1]))
-        return inputs.frozen(np.concatenate(rows))
+        felt = self._felt if self.shown > 0 else None
+        return inputs.frozen(self.coupling.wheel_forces(self.passes[self.shown], felt))
 
     @cached_property
     def _felt(self) -> DeckState:
@@ -244,12 +236,31 @@ class Crossing:
         return self._recovered(lines, SECTION_QUANTITIES, self_weight, f"x = {x:g} m")
 
     def reactions(self, self_weight: bool = False) -> dict[float, History]:
-        """Return force_y, force_z (N) and moment_x (N m) of every bearing line on the deck, by its place (m)."""
+        """Return force_x, force_y, force_z (N), moment_x (N m, about the axis) of every bearing line on the deck, by place (m)."""
         recovery = self._recovery()
         result = {}
         for support in self.deck.supports:
             lines = {n: recovery.reaction(n, support) for n in REACTION_QUANTITIES}
             result[support] = self._recovered(lines, REACTION_QUANTITIES, self_weight, f"bearing at {support:g} m")
+        return result
+
+    def bearing_forces(self, self_weight: bool = False) -> dict[int, History]:
+        """Return forces (N) and moments about itself (N m) of every bearing on the deck, by its number from 1.
+
+        A bearing that pulls the deck down, force_z < 0 with the self-weight, would lift. NaN where it holds no such freedom.
+
+        Raises
+        ------
+        InputError
+            A deck that knows no single bearings.
+        """
+        recovery, result = self._recovery(), {}
+        if not self.deck.bearings:
+            raise InputError("deck", self.deck.name, "knows bearing lines only, no single bearings", "Use reactions()")
+        for number, (x, y, z) in enumerate(self.deck.bearings, start=1):
+            lines = {n: recovery.bearing(number, n) for n in BEARING_QUANTITIES}
+            where = f"bearing {number} at x = {x:g}, y = {y:g}, z = {z:g} m"
+            result[number] = self._recovered(lines, BEARING_QUANTITIES, self_weight, where)
         return result
 
     def _recovery(self) -> Recovery:

@@ -107,6 +107,7 @@ class _Car:
         mode, component = axles.pairs
         shape = self.window.stop - self.window.start, 2 * len(contacts), len(coupling.modes)
         result = np.zeros((2, *shape))
+        height = coupling.deck.track_height
         for i, (axle, contact) in enumerate(zip(coupling.axle_of[car], contacts, strict=True)):
             start = int(axles.starts[axle]) - self.window.start
             window = slice(start, start + int(axles.counts[axle]))
@@ -114,8 +115,10 @@ class _Car:
             for target, table, factor in zip(result, axles.tables[axles.which[axle]], (1.0, axles.speed), strict=True):
                 values = factor * table[:, : int(axles.counts[axle])].T
                 for pair, (m, c) in enumerate(zip(mode, component, strict=True)):
-                    row, weight = (2 * i, 1.0) if c == 0 else (2 * i + 1, 1.0 if c == 1 else y)
-                    target[window, row, m] += weight * values[:, pair]
+                    # The rail moves sideways by v - h theta and up by w + y theta.
+                    for row, weight in ((2 * i, (1.0, 0.0, -height)[c]), (2 * i + 1, (0.0, 1.0, y)[c])):
+                        if weight:
+                            target[window, row, m] += weight * values[:, pair]
         return result[0], result[1]
 
     def predict(self, k: int, state: np.ndarray, reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -114,6 +114,7 @@ class Coupling:
         met = self.axles.motion(state.q, state.velocity)
         longest = max(self.windows[c].stop - self.windows[c].start for c in cars)
         u = np.zeros((2 * len(self.axle_of[cars[0]]), len(cars), longest))
+        height = self.deck.track_height
         for place, car in enumerate(cars):
             vehicle = self.train.vehicles[car]
             for i, (axle, contact) in enumerate(zip(self.axle_of[car], vehicle.contacts, strict=True)):
@@ -125,7 +126,8 @@ class Coupling:
                 if self.settings.feedback == "all":
                     y = self.settings.track_offset + contact.y
                     u[2 * i + 1, place, window] += y * (k[1] * moved[2] + c[1] * rate[2])
-                    u[2 * i, place, window] = k[0] * moved[0] + c[0] * rate[0]
+                    aside, aside_rate = moved[0] - height * moved[2], rate[0] - height * rate[2]
+                    u[2 * i, place, window] = k[0] * aside + c[0] * aside_rate
         return u
 
     def train_pass(self, state: DeckState) -> Delta:
@@ -138,6 +140,22 @@ class Coupling:
             for i, car in enumerate(cars):
                 delta[car] = forces[:, i, : delta[car].shape[1]]
         return delta
+
+    def wheel_forces(self, delta: Delta, felt: DeckState | None) -> np.ndarray:
+        """Return all wheel forces on the deck, N, shape (wheels, 2, n): lateral, vertical; static part included.
+
+        `felt` is the deck's motion that `delta` answers to: behind the deck a car's motion decays freely on the track. None:
+        a rigid deck.
+        """
+        rows = []
+        for car, (rigid, static) in enumerate(zip(self.rigid, self.static, strict=True)):
+            total = rigid + static[:, None]
+            window = self.windows[car]
+            total[:, window] += delta[car]
+            if felt is not None and window.stop < total.shape[1] and len(self.train.groups()) > 0:
+                total[:, window.stop :] += self.decay(felt, car)
+            rows.append(total.reshape(-1, 2, total.shape[1]))
+        return np.concatenate(rows)
 
     def decay(self, state: DeckState, car: int) -> np.ndarray:
         """Return how one car's wheel forces decay on the level track behind the deck, shape (2 wheels, samples after it).
@@ -200,7 +218,7 @@ def prepare(train: Train | AxleTrain, deck: Deck, track: Track, s: Settings) -> 
         condensation = train.condensation(car, s.loads)
         load_delays.append(centre - condensation.offsets)
         matrix = condensation.matrix.copy()
-        matrix[:, 2] += s.track_offset * matrix[:, 1]
+        matrix[:, 2] += s.track_offset * matrix[:, 1] - deck.track_height * matrix[:, 0]
         matrices.append(matrix)
     load_delays = np.concatenate(load_delays)
     return Coupling(

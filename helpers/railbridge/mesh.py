@@ -32,7 +32,7 @@ __all__ = ["FIELDS", "BeamModes", "Mesh"]
 
 _PLACE = {"axial": (0,), "lateral": (1, 4), "vertical": (2, 5), "torsion": (3,)}  # of a field among a node's freedoms
 _LABELS = {"axial": "axial", "lateral": "lateral bending", "vertical": "vertical bending", "torsion": "torsion"}
-MIXED = (0.1, 0.9)
+MIXED = (0.25, 0.75)
 """Share of axial kinetic energy between which a mode is called axial-bending."""
 
 
@@ -46,8 +46,8 @@ class BeamModes:
     names : tuple of str
         ``vertical bending 1``, ``lateral bending 1``, ``torsion 1``, ``axial 1``, ``axial-bending 1`` ..., each numbered
         within its kind. A mode is named after the field that holds most of its kinetic energy, that of the mass's own
-        lateral motion counted as lateral; but ``axial-bending`` where the axial share lies between 10 % and 90 %, as with
-        bearings below the axis. (Strain energy would be of no use on soft bearings, which hold most of it.)
+        lateral motion counted as lateral; but ``axial-bending`` where neither the axial share nor the rest reaches three
+        quarters, as with bearings below the axis. (Strain energy would be of no use on soft bearings, which hold most of it.)
     vectors : ndarray, shape (freedoms, m)
         Mass-normalised.
     energies : dict of ndarray, shape (m,)
