@@ -1,9 +1,11 @@
 """One function per figure: a result and optional axes in, the axes out. Nothing physical is computed here.
 
 Without axes a function makes a figure of notebook width. It never shows it and changes no settings, so figures can be
-composed: give the axes of ``plt.subplots``. Looks and units are those of `drawing.LOOKS`: kN, kN m and mm.
+composed: give the axes of ``plt.subplots``; the two that move return an `Animation` instead. Looks and units are those of
+`drawing.LOOKS`: kN, kN m and mm.
 """
 
+from .animation import animate_crossing, animate_vehicle_mode
 from .deck import damping, deck_mode, deck_modes, influence_line
 from .forces import car_forces, spectra, spectrum, wheel_force, wheel_forces
 from .response import (
@@ -21,8 +23,8 @@ from .sketches import train_on_deck, vehicle, vehicle_mode
 from .track import frequencies, irregularity, notch, slope, wheel_paths, wheels_on_track
 
 __all__ = [
-    "acceleration", "car_forces", "convergence", "damping", "deck_mode", "deck_modes", "deviations", "displacement",
-    "frequencies", "influence_line", "irregularity", "iterations", "load_modes", "notch", "reactions", "section_force", "slope",
-    "spectra", "spectrum", "train_on_deck", "vehicle", "vehicle_mode", "velocity", "wheel_force", "wheel_forces", "wheel_paths",
-    "wheels_on_track",
+    "acceleration", "animate_crossing", "animate_vehicle_mode", "car_forces", "convergence", "damping", "deck_mode",
+    "deck_modes", "deviations", "displacement", "frequencies", "influence_line", "irregularity", "iterations", "load_modes",
+    "notch", "reactions", "section_force", "slope", "spectra", "spectrum", "train_on_deck", "vehicle", "vehicle_mode",
+    "velocity", "wheel_force", "wheel_forces", "wheel_paths", "wheels_on_track",
 ]  # fmt: skip

@@ -276,6 +276,12 @@ def mode_motion(vehicle: Vehicle, mode: int, scale: float | None = None) -> tupl
     return modes, {n: factor * m for n, m in motion.items()}
 
 
+def same_frequency(modes: Modes, i: int) -> list[int]:
+    """Return the other modes, from 1, that share the frequency of the one with index i: they have no shapes of their own."""
+    f = modes.frequencies_hz
+    return [j + 1 for j in range(len(f)) if j != i and abs(f[j] - f[i]) < 1e-5 * f[i]]
+
+
 def what_moves(v: Vehicle, modes: Modes, i: int) -> str:
     energy = np.diag(v.mass_matrix) * modes.shapes[:, i] ** 2
     share = energy / energy.sum()
@@ -286,8 +292,7 @@ def what_moves(v: Vehicle, modes: Modes, i: int) -> str:
         if moves:
             parts.append(f"{body.name} " + " and ".join(f"{_DOES[f]} ({100 * s:.0f} %)" for s, f in moves))
     text = "; ".join(parts) + " - shares of the kinetic energy"
-    f = modes.frequencies_hz
-    equal = [j + 1 for j in range(len(f)) if j != i and abs(f[j] - f[i]) < 1e-5 * f[i]]
+    equal = same_frequency(modes, i)
     if equal:
         text += f". Same frequency as mode {equal[0]}: any mix of them is a mode as well"
     return text[0].upper() + text[1:] + "."
