@@ -236,7 +236,7 @@ class Crossing:
         return self._recovered(lines, SECTION_QUANTITIES, self_weight, f"x = {x:g} m")
 
     def reactions(self, self_weight: bool = False) -> dict[float, History]:
-        """Return force_x, force_y, force_z (N), moment_x (N m, about the axis) of every bearing line on the deck, by place (m)."""
+        """Return force_x, force_y, force_z (N), moment_x (N m, about the axis) of every bearing line on the deck, by place."""
         recovery = self._recovery()
         result = {}
         for support in self.deck.supports:
