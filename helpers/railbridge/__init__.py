@@ -39,7 +39,7 @@ __all__ = [
     "sprung_mass", "steady_forces", "summarize", "vehicle",
 ]  # fmt: skip
 
-_LAZY = ("panels", "paper", "plots")
+_LAZY = ("panels", "paper", "plots", "staggered")
 
 
 def __getattr__(name: str):
