@@ -1,6 +1,7 @@
 """One set of asks: pyproject.toml, environment.yml, requirements.lock and what is installed agree."""
 
 import importlib.metadata
+import json
 import os
 import re
 import subprocess
@@ -15,6 +16,8 @@ from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
 from packaging.utils import canonicalize_name
 from packaging.version import Version
+
+from railbridge import lessons
 
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -99,18 +102,41 @@ def test_import_is_light():
     assert done.stdout.strip() == "[]", done.stdout + done.stderr
 
 
-def test_a_built_wheel_carries_the_data(tmp_path):
-    """Someone who installs the wheel has no folder `data/` beside the package."""
-    build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(tmp_path)]
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """A folder with the unpacked wheel: someone who installs it has no folders `data/` and `notebooks/` beside the package."""
     if subprocess.run([sys.executable, "-c", "import hatchling"], capture_output=True).returncode:
         pytest.skip("the build backend is not installed")
+    folder = tmp_path_factory.mktemp("wheel")
+    build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
     subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
-    with zipfile.ZipFile(next(tmp_path.glob("railbridge-*.whl"))) as wheel:
-        wheel.extractall(tmp_path / "site")
-    carried = {path.name for path in (tmp_path / "site" / "railbridge" / "data").rglob("*.*")}
-    assert carried == {path.name for path in (ROOT / "data").rglob("*.*")}
-    code = "import railbridge as rb; print(rb.__file__); rb.vehicle('xia2000'); rb.deck('viaduct36')"
-    paths = {**os.environ, "PYTHONPATH": str(tmp_path / "site")}
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=paths, capture_output=True, text=True)
+    with zipfile.ZipFile(next(folder.glob("railbridge-*.whl"))) as wheel:
+        wheel.extractall(folder / "site")
+    return folder / "site"
+
+
+def with_wheel(site, folder, *arguments):
+    """What Python says, with the wheel in place of the checkout."""
+    paths = {**os.environ, "PYTHONPATH": str(site)}
+    done = subprocess.run([sys.executable, *arguments], cwd=folder, env=paths, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    assert Path(done.stdout.strip()).is_relative_to(tmp_path.resolve())
+    return done.stdout
+
+
+def test_a_built_wheel_carries_the_data(site, tmp_path):
+    carried = {path.relative_to(site / "railbridge") for path in (site / "railbridge" / "data").rglob("*.*")}
+    assert carried == {path.relative_to(ROOT) for path in (ROOT / "data").rglob("*.*")}
+    code = "import railbridge as rb; print(rb.__file__); rb.vehicle('xia2000'); rb.deck('viaduct36')"
+    assert Path(with_wheel(site, tmp_path, "-c", code).strip()).is_relative_to(site.resolve())
+
+
+def test_a_built_wheel_hands_out_the_same_notebooks_as_the_checkout(site, tmp_path):
+    assert {path.name for path in site.iterdir()} == {"railbridge", next(site.glob("*.dist-info")).name}
+    carried = {path.name for path in (site / "railbridge" / "share" / "notebooks").iterdir()}
+    assert carried == {path.name for path in (ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb")}
+    said = with_wheel(site, tmp_path, "-m", "railbridge.cli", "copy-notebooks", "mine")
+    handed = {p.relative_to(tmp_path / "mine").as_posix(): p.read_bytes() for p in (tmp_path / "mine").rglob("*") if p.is_file()}
+    record = handed.pop(lessons.MANIFEST)
+    assert handed == lessons.contents()
+    assert set(json.loads(record)) == set(handed)
+    assert f"{len(handed)} copied" in said

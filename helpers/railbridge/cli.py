@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shlex
 import shutil
 import sys
 import tempfile
@@ -21,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from . import inputs
+from . import inputs, lessons
 from .case import Case, case
 from .crossing import Crossing, NotConvergedError
 from .inputs import InputError
@@ -45,6 +46,7 @@ examples:
   railbridge run paper --out paper           run a shipped case by its name
   railbridge run case.toml --out fast --set run.speed=30 --set train.cars=4
   railbridge list                            vehicles, decks and cases that are shipped
+  railbridge copy-notebooks my-course        the lessons as copies of your own; again later, it renews those not edited
   railbridge schema > case.schema.json       for editors that complete and check TOML files
 
 results (in the folder of --out; files of these names in it are replaced):
@@ -164,6 +166,11 @@ def _parser() -> argparse.ArgumentParser:
     new.add_argument("file", help="file to write; one that exists is left alone")
     listing = add("list", _list, "list shipped vehicles, decks and cases")
     listing.add_argument("kind", nargs="?", choices=KINDS, help="all three if left out")
+    copying = add(
+        "copy-notebooks", _copy_notebooks, "copy the notebooks, and the data files they lead to, into a folder of your own"
+    )
+    copying.add_argument("folder", metavar="DIR", help="made if it does not exist; copies that were edited or run are left alone")
+    copying.add_argument("--force", action="store_true", help="replace edited copies too; yours is kept beside as NAME.edited-1")
     add("schema", _schema, "print the JSON schema of case files, for editors that complete and check them")
     return parser
 
@@ -265,13 +272,51 @@ def _schema(given: argparse.Namespace) -> int:
     return 0
 
 
+def _copy_notebooks(given: argparse.Namespace) -> int:
+    folder = Path(given.folder)
+    with _staging(given.folder, "DIR") as (scratch, existed):
+        copies = lessons.plan(folder, given.force)
+        lessons.stage(copies, folder, scratch)
+        if existed:
+            lessons.place(copies, folder, scratch)
+        else:
+            scratch.replace(folder)
+    for copy in copies:
+        if copy.action in ("updated", "kept", "replaced"):
+            print(f"{copy.action:10}{copy.name}" + f"  (yours is now {copy.backup})" * bool(copy.backup))
+    count = {a: sum(c.action == a for c in copies) for a in ("copied", "updated", "replaced", "unchanged", "kept")}
+    print(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
+    if count["kept"]:
+        print("kept: changed since they were copied; --force replaces them and keeps yours beside under another name")
+    print(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
+    return 0
+
+
 def _reason(error: Exception) -> str:
     return getattr(error, "strerror", None) or str(error)
 
 
 @contextmanager
 def _results(out: str) -> Iterator[Path]:
-    """Give a temporary folder beside the results; what is in it becomes the results only if all went well.
+    """Give a temporary folder beside the results; what is in it becomes the results only if all went well."""
+    folder = Path(out)
+    with _staging(out, "--out") as (scratch, existed):
+        yield scratch
+        if existed:
+            # summary.json goes first and comes last: where it stands, the files beside it belong to it.
+            (folder / "summary.json").unlink(missing_ok=True)
+            for name in FILES:
+                if (scratch / name).exists():
+                    (scratch / name).replace(folder / name)
+                else:
+                    (folder / name).unlink(missing_ok=True)
+        else:
+            scratch.replace(folder)
+
+
+@contextmanager
+def _staging(out: str, field: str) -> Iterator[tuple[Path, bool]]:
+    """Give a temporary folder in or beside the one that is asked for, and whether that one exists; nothing is left of it after.
 
     Raises
     ------
@@ -281,10 +326,10 @@ def _results(out: str) -> Iterator[Path]:
     folder, made = Path(out), []
     try:
         if not out.strip():
-            raise InputError("--out", out, "must name a folder")
+            raise InputError(field, out, "must name a folder")
         existed = folder.is_dir()
         if not existed and (folder.exists() or folder.is_symlink()):
-            raise InputError("--out", out, "is a file, not a folder", "Choose another name")
+            raise InputError(field, out, "is a file, not a folder", "Choose another name")
         for parent in [p for p in reversed(folder.absolute().parents) if not p.exists()]:
             parent.mkdir()
             made.append(parent)
@@ -297,20 +342,10 @@ def _results(out: str) -> Iterator[Path]:
         _remove(made)
         if isinstance(error, InputError):
             raise
-        raise InputError("--out", out, f"cannot be written to ({_reason(error)})", "Choose another folder") from None
+        raise InputError(field, out, f"cannot be written to ({_reason(error)})", "Choose another folder") from None
     try:
-        yield scratch
         scratch.chmod(0o777 & ~_umask())
-        if existed:
-            # summary.json goes first and comes last: where it stands, the files beside it belong to it.
-            (folder / "summary.json").unlink(missing_ok=True)
-            for name in FILES:
-                if (scratch / name).exists():
-                    (scratch / name).replace(folder / name)
-                else:
-                    (folder / name).unlink(missing_ok=True)
-        else:
-            scratch.replace(folder)
+        yield scratch, existed
     except BaseException:
         shutil.rmtree(scratch, ignore_errors=True)
         _remove(made)
