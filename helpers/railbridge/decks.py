@@ -137,7 +137,8 @@ def _from_modes(where: str, name: str, content: dict[str, Any]) -> Deck:
     inputs.keys(where, content, exchange.FILE_KEYS)
     tracks, width = _tracks(where, content)
     damping = _damping(where, inputs.table(f"{where}: damping", content["damping"])) if "damping" in content else None
-    return exchange.deck_from_files(where, content["modes"], damping, name=name, tracks=tracks, width=width)
+    own = {"name": name, "tracks": tracks, "width": width, "track_height": track_height(where, content)}
+    return exchange.deck_from_files(where, content["modes"], damping, **own)
 
 
 def _tracks(where: str, content: dict[str, Any]) -> tuple[dict[str, float], float | None]:

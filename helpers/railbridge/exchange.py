@@ -7,14 +7,15 @@ ry, rz, one line for each mode and node; modal_mass where shapes are not mass-no
 
 u_l and u_m the units of length and mass in m and kg, M the modal mass (1 for mass-normalised shapes).
 
-From nodes to the rail. The nodes of the rail line give lateral, vertical and twist shapes along x:
+From nodes to the rail. A line of nodes carries the rail; at each of its places the deck axis moves
 
-* w and v are cubic between neighbouring nodes: Hermite's with w' = -ry and v' = rz where rotations are given, otherwise a
-  cubic spline through the displacements;
-* twist is rx, a parabola through nodes 1-2-3, 3-4-5 and so on (a single last piece takes the last three nodes). Without
-  rx, as in solid models, it is the difference of uz between a left and a right line of nodes. With neither, the deck is
-  rigid in twist;
-* then the line moves to the deck axis as a rigid arm: v = uy + z rx, w = uz - y rx for a node at (y, z) from the axis.
+* with one node, as on a rigid arm: v = uy + z rx, w = uz - y rx, twist rx, for a node at (y, z) from the axis;
+* with a left and a right node, as in solid and shell models: twist is the difference of uz over their distance, w lies on
+  the straight line through both uz, v is the mean of uy moved by the twist.
+
+A single line without rx makes the deck rigid in twist. Between the places v and w are cubic: Hermite's with w' = -ry and
+v' = rz where a single line has rotations (those of the cross-section), otherwise splines through the displacements. Twist is a
+parabola through places 1-2-3, 3-4-5 and so on (a last single piece takes the last three), or a spline from a pair of lines.
 
 Modes alone give no section forces, reactions or self-weight (`Deck.recovery` is None), and their sum lacks the static
 flexibility of the modes left out.
@@ -57,7 +58,7 @@ __all__ = [
 ]  # fmt: skip
 
 MODEL_KEYS = ("nodes", "modes", "masses", "units", "axes", "rail", "axis", "supports", "count", "unusual")
-FILE_KEYS = ("modes", "damping", "tracks", "width", "name", "source", "note")
+FILE_KEYS = ("modes", "damping", "tracks", "width", "track_height", "name", "source", "note")
 """Keys of a deck file that is made of modes."""
 
 _PATHS = ("nodes", "modes", "masses")
@@ -327,6 +328,7 @@ def deck_from_modes(
     count: int | None = None,
     tracks: Mapping[str, float] | None = None,
     width: float | None = None,
+    track_height: float = 0.0,
     supports: Sequence[float] = (),
     unusual: bool = False,
 ) -> Deck:
@@ -342,7 +344,7 @@ def deck_from_modes(
         Instead of the file's own; needed where it has none.
     count : int, optional
         How many of the lowest modes that move the rail are kept; all if not given.
-    tracks, width, supports
+    tracks, width, track_height, supports
         See `Deck`; places of bearing lines in m from the first node are only drawn.
     unusual : bool
         Accept frequencies and masses beyond those of bridges.
@@ -358,7 +360,7 @@ def deck_from_modes(
     shapes = model.shapes[:, index]
     for i, j in np.argwhere(~np.isfinite(shapes[0, :, :, 0]))[:1]:
         raise InputError("rail", line.labels[i][j], "is a node of the rail that the modes leave out", "Write the modes there too")
-    functions = PiecewiseCubic(line.x, line.to_axis(_along(line, shapes, model.rotations)))
+    functions = PiecewiseCubic(line.x, _along(line, shapes, model.rotations))
     size = _sizes(functions)
     moving = np.flatnonzero(np.sqrt(size.sum(axis=1) / size.sum(axis=1).max()) > 1e-6)
     kept = moving[: inputs.integer("modes.count", count, least=1, most=len(moving)) if count is not None else None]
@@ -381,59 +383,54 @@ def deck_from_modes(
         supports=tuple(float(x) for x in supports),
         tracks=dict(tracks or {}),
         width=width,
+        track_height=track_height,
     )
 
 
 def _along(line: RailLine, shapes: np.ndarray, rotations: tuple[bool, bool, bool]) -> np.ndarray:
-    """Return the shapes along the middle of the line, shape (n - 1, 4, m, 3), from those of its nodes, shape (m, n, k, 6)."""
+    """Return the shapes along the deck axis, shape (n - 1, 4, m, 3), from those of the line's nodes, shape (m, n, k, 6)."""
     _, uy, uz, rx, ry, rz = np.moveaxis(shapes, -1, 0)
-    values = line.middle(uy, uz, rx)
-    slopes = line.middle(rz, -ry, np.zeros_like(rx))
-    known = rotations[2], rotations[1], rotations[1] and line.paired
+    lateral, vertical, twist = line.axis_motion(uy, uz, rx)
     result = np.zeros((len(line.x) - 1, 4, len(shapes), 3))
-    for c, (value, slope, given) in enumerate(zip(values, slopes, known, strict=True)):
-        if c == 2 and not line.paired:
-            result[..., c] = parabolas(line.x, value)
-        elif given and _agree(line.x, value, slope, ["uy", "uz", "rx"][c]):
-            result[..., c] = hermite(line.x, value, slope)
+    for c, value, slope, known, names in ((0, lateral, rz, rotations[2], "uy rz"), (1, vertical, -ry, rotations[1], "uz -ry")):
+        if known and not line.paired and _agree(line.x, value, slope[..., 0], *names.split()):
+            result[..., c] = hermite(line.x, value, slope[..., 0])
         else:
-            _warn_of_few_nodes(value, ["uy", "uz", "rx"][c])
+            _warn_of_few_nodes(value, names[:2])
             result[..., c] = spline(line.x, value)
+    result[..., 2] = spline(line.x, twist) if line.paired else parabolas(line.x, twist)
     return result
 
 
-def _agree(x: np.ndarray, values: np.ndarray, slopes: np.ndarray, name: str) -> bool:
+def _agree(x: np.ndarray, values: np.ndarray, slopes: np.ndarray, name: str, rotation: str) -> bool:
     """Whether rotations are slopes of the displacements, in the mode where they fit best; if not, warn and do without.
 
-    Drilling rotations of shells, slender beams' sign conventions and shear-flexible beams are the usual reasons.
+    Usual reasons: drilling rotations of shells, left-handed rotations, other units of the angle.
     """
     from_values = CubicSpline(x, values, axis=-1)(x, 1)
     size = np.linalg.norm(from_values, axis=1)
     bent = size > 1e-3 * size.max()
-    if not bent.any():
-        return True
     misfit = np.linalg.norm(slopes - from_values, axis=1)[bent] / size[bent]
-    if misfit.min() < 0.2:
+    if len(misfit) == 0 or misfit.min() < 0.2:
         return True
-    rotation = {"uy": "rz", "uz": "-ry", "rx": "the twist of ry"}[name]
     warnings.warn(
-        f"modes: {rotation} is not the slope of {name} along the rail (off by {misfit.min():.0%} at best), so the slopes are "
-        "taken from the displacements.",
-        stacklevel=5,
+        f"modes: {rotation} is not the slope of {name} along the rail (off by {misfit.min():.0%} at best), so slopes are taken "
+        "from the displacements.",
+        stacklevel=4,
     )
     return False
 
 
 def _warn_of_few_nodes(values: np.ndarray, name: str) -> None:
     """Warn of modes with more than one change of sign in three nodes: a spline cannot follow them."""
-    large = np.abs(values) > 1e-3 * np.abs(values).max(axis=1, keepdims=True)
+    large = np.abs(values) > 1e-3 * np.abs(values).max()
     changes = [(np.diff(np.sign(v[use])) != 0).sum() for v, use in zip(values, large, strict=True)]
     if max(changes) > values.shape[1] / 3:
         mode = int(np.argmax(changes)) + 1
         warnings.warn(
             f"modes: the {values.shape[1]} nodes of the rail are few for {name} of mode {mode}, which changes sign "
             f"{max(changes)} times. Use a finer line, fewer modes, or write rotations too.",
-            stacklevel=5,
+            stacklevel=4,
         )
 
 
@@ -554,6 +551,7 @@ def export_modes(deck: Deck, folder: str | Path, units: tuple[str, str] = ("m", 
         rows += [f"{start}{i},{','.join(map(_text, row))}\n" for i, row in enumerate(columns[:, m], start=1)]
     toml = [f"name = {json.dumps(deck.name)}\n", 'note = "modes only: no section forces, reactions or self-weight"\n']
     toml += [f"width = {_text(deck.width)}\n"] if deck.width else []
+    toml += [f"track_height = {_text(deck.track_height)}\n"] if deck.track_height else []
     toml += ["\n[modes]\n", 'nodes = "nodes.csv"\n', 'modes = "modes.csv"\n', "unusual = true\n"]
     toml += [f"supports = [{', '.join(map(_text, deck.supports))}]\n"] if deck.supports else []
     toml += ["\n[tracks]\n", *[f"{json.dumps(k)} = {_text(y)}\n" for k, y in deck.tracks.items()]] if deck.tracks else []

@@ -320,38 +320,17 @@ class RailLine:
         """Whether a left and a right line carry the rail."""
         return self.y.shape[1] == 2
 
-    def middle(self, y: np.ndarray, z: np.ndarray, roll: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return lateral, vertical motion and twist of the line's middle from those of its nodes, each shape (..., n).
+    def axis_motion(self, y: np.ndarray, z: np.ndarray, roll: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return lateral, vertical motion and twist of the deck axis from those of the nodes, each shape (..., n, k) to (..., n).
 
-        Of one node they are its own. Of a pair: the mean of uy, uz on the straight line between both at y = 0, and as twist the
-        difference of uz over the distance; `roll` is then not used.
+        From one node as on a rigid arm: v = uy + z rx, w = uz - y rx. From a pair: twist is the difference of uz over the
+        distance, w on the straight line through both uz, v the mean of uy moved by the twist; `roll` is then not used.
         """
-        if not self.paired:
-            return y[..., 0], z[..., 0], roll[..., 0]
-        twist = (z[..., 0] - z[..., 1]) / (self.y[:, 0] - self.y[:, 1])
-        return y.mean(axis=-1), z[..., 0] - twist * self.y[:, 0], twist
-
-    @property
-    def arm(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return y and z of the line's middle from the deck axis, m, each shape (n,)."""
-        return (np.zeros(len(self.x)) if self.paired else self.y[:, 0]), self.z.mean(axis=1)
-
-    def to_axis(self, functions: np.ndarray) -> np.ndarray:
-        """Move piecewise functions from the line's middle to the deck axis: v = uy + z rx, w = uz - y rx.
-
-        Parameters
-        ----------
-        functions : ndarray, shape (n - 1, 4, m, 3)
-            See `PiecewiseCubic`; twist at most quadratic where y or z changes along the line.
-        """
-        y, z = self.arm
-        result = functions.copy()
-        twist = functions[..., 2]
-        for component, arm in ((0, z), (1, -y)):
-            start, slope = arm[:-1, None, None], np.diff(arm)[:, None, None]
-            result[..., component] += start * twist
-            result[:, 1:, :, component] += slope * twist[:, :-1]
-        return result
+        if self.paired:
+            twist = (z[..., 0] - z[..., 1]) / (self.y[:, 0] - self.y[:, 1])
+            return y.mean(axis=-1) + self.z.mean(axis=1) * twist, z[..., 0] - twist * self.y[:, 0], twist
+        twist = roll[..., 0]
+        return y[..., 0] + self.z[:, 0] * twist, z[..., 0] - self.y[:, 0] * twist, twist
 
 
 def spline(x: np.ndarray, values: np.ndarray) -> np.ndarray:

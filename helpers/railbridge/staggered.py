@@ -95,7 +95,7 @@ class Staggered:
         return inputs.frozen(self.coupling.wheel_forces(self.passes[-1], self.felt))
 
 
-def nodal_deck(line: RailLine, name: str = "nodes") -> Deck:
+def nodal_deck(line: RailLine, track_height: float = 0.0) -> Deck:
     """Return a deck whose coordinates are the displacements y, z and the twist of the nodes of a line.
 
     It has no frequencies of its own; only its shapes, which interpolate between the nodes by cubic splines, have a meaning.
@@ -106,10 +106,13 @@ def nodal_deck(line: RailLine, name: str = "nodes") -> Deck:
     for c in range(3):
         coefficients[:, :, c * n : (c + 1) * n, c] = cardinal
     none = np.ones(3 * n)
-    return Deck(name, line.length, none, 0.0 * none, ("node",) * (3 * n), PiecewiseCubic(line.x, coefficients))
+    shapes = PiecewiseCubic(line.x, coefficients)
+    return Deck("nodes", line.length, none, 0.0 * none, ("node",) * (3 * n), shapes, track_height=track_height)
 
 
-def begin(train: Train | AxleTrain, track: Track, line: RailLine, *, speed: float, **options: Any) -> Staggered:
+def begin(
+    train: Train | AxleTrain, track: Track, line: RailLine, *, speed: float, track_height: float = 0.0, **options: Any
+) -> Staggered:
     """Return pass 0: the wheel forces on a rigid deck.
 
     Parameters
@@ -119,12 +122,15 @@ def begin(train: Train | AxleTrain, track: Track, line: RailLine, *, speed: floa
         The nodes under the rail, from ``read_nodes(...).line(...)``.
     speed : float
         m/s.
+    track_height : float
+        Rails above the deck axis, m; see `Deck`.
     options
         ``loads``, ``track_offset``, ``time_step``, ``lead_in``, ``tail``, ``excitation``, ``feedback``; see `cross`.
     """
     allowed = ("loads", "track_offset", "time_step", "lead_in", "tail", "excitation", "feedback")
     inputs.keys("run", options, allowed)
-    deck = nodal_deck(line)
+    track_height = inputs.number("track_height", track_height, unit="m")
+    deck = nodal_deck(line, track_height)
     coupling = prepare(train, deck, track, check(train, deck, track, speed=speed, **options))
     return Staggered(train, track, line, coupling, (coupling.at_rest(),))
 
@@ -239,9 +245,7 @@ def _axis_motion(line: RailLine, motion: NodeMotion) -> np.ndarray:
                 f"motion.{name}", np.shape(values), f"must have {len(line.nodes)} nodes and {len(motion.time)} instants"
             )
     y, z, roll = (np.moveaxis(np.reshape(a, (*shape, -1)), -1, 0) for a in (motion.y, motion.z, motion.roll))
-    lateral, vertical, twist = line.middle(y, z, roll)
-    arm_y, arm_z = line.arm
-    return np.concatenate([(lateral + arm_z * twist).T, (vertical - arm_y * twist).T, twist.T])
+    return np.concatenate([motion.T for motion in line.axis_motion(y, z, roll)])
 
 
 def _refuse_history(motion: NodeMotion, axis: np.ndarray, needed: np.ndarray) -> None:
@@ -288,7 +292,7 @@ def equivalent_irregularity(step: Staggered, car: int = 1, wheel: int = 1) -> Hi
         window = slice(start, start + moved.shape[1])
         deck[1, window] = moved[1]
         if s.feedback == "all":
-            deck[0, window] = moved[0]
+            deck[0, window] = moved[0] - step.coupling.deck.track_height * moved[2]
             deck[1, window] += (s.track_offset + own.y) * moved[2]
     values = {}
     for name, direction, met in (("y", "lateral", deck[0]), ("z", "vertical", deck[1])):
@@ -393,18 +397,17 @@ def _to_nodes(line: RailLine, axis: np.ndarray) -> np.ndarray:
     """Move loads from the deck axis to the nodes beside it, shape (nodes, 6, t)."""
     force_y, force_z, moment_x, moment_y, moment_z = np.moveaxis(axis, 1, 0)
     result = np.zeros((*line.y.shape, 6, axis.shape[-1]))
-    y, z = (a[:, None] for a in line.arm)
-    # About the line's middle, which is at (y, z) from the axis.
-    moment_x = moment_x - y * force_z + z * force_y
-    if not line.paired:
-        result[:, 0, 1:] = np.stack([force_y, force_z, moment_x, moment_y, moment_z], axis=1)
-    else:
+    height = line.z.mean(axis=1)[:, None]
+    # The lateral force now acts at the nodes' height.
+    moment_x = moment_x + height * force_y
+    if line.paired:
         left, right = line.y[:, 0, None], line.y[:, 1, None]
-        # Halves of the lateral force at unequal heights turn, too.
-        moment_x = moment_x + force_y * ((line.z - line.arm[1][:, None]) @ [[0.5], [0.5]])
         for i, (other, sign) in enumerate(((right, 1.0), (left, -1.0))):
-            result[:, i, 1], result[:, i, 2] = force_y / 2, sign * (moment_x - other * force_z) / (left - right)
-            result[:, i, 4], result[:, i, 5] = moment_y / 2, moment_z / 2
+            vertical = sign * (moment_x - other * force_z) / (left - right)
+            result[:, i, 1:] = np.stack([force_y / 2, vertical, 0.0 * force_y, moment_y / 2, moment_z / 2], axis=1)
+    else:
+        moment_x = moment_x - line.y * force_z
+        result[:, 0, 1:] = np.stack([force_y, force_z, moment_x, moment_y, moment_z], axis=1)
     return result.reshape(-1, 6, axis.shape[-1])
 
 

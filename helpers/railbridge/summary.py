@@ -50,7 +50,7 @@ def summarize(run: Crossing, points: Sequence[float]) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``vehicle_frequencies_hz`` (of the first kind of car), ``deck_frequencies_hz`` and ``deck_mode_names``;
+        ``vehicle_frequencies_hz`` (of the first kind of car), ``deck_frequencies_hz`` and ``deck_mode_names``; ``remarks``;
         ``converged``, ``iterations`` (solves after the rigid one), ``changes``; ``deviation_percent`` (Eq. 3);
         ``run`` (how it was computed); ``wheel_force_z`` (N on the deck, static part included: ``min`` is the heaviest) and
         ``wheel_unloading`` (1 - force / static); ``points``, ``envelope``, ``reactions``, ``car_body``, ``self_weight``.
@@ -71,6 +71,7 @@ def summarize(run: Crossing, points: Sequence[float]) -> dict[str, Any]:
         "vehicle_frequencies_hz": groups[0][0].modes().frequencies_hz if groups else [],
         "deck_frequencies_hz": deck.frequencies_hz,
         "deck_mode_names": list(deck.mode_names),
+        "remarks": _remarks(deck),
         "converged": run.converged if iterated else None,
         "iterations": run.iterations if iterated else 0,
         "changes": list(run.changes) if iterated else None,
@@ -87,6 +88,16 @@ def summarize(run: Crossing, points: Sequence[float]) -> dict[str, Any]:
         "self_weight": _self_weight(run, points),
     }  # fmt: skip
     return _plain(result)
+
+
+def _remarks(deck: Deck) -> list[str]:
+    """Return what a reader must know before reading the numbers."""
+    if deck.recovery is not None:
+        return []
+    return [
+        "Only modes of this deck are known: section forces, reactions and self-weight are null, and displacements lack the "
+        "static flexibility of the modes left out."
+    ]
 
 
 def to_json(summary: dict[str, Any]) -> str:
