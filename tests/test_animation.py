@@ -144,6 +144,23 @@ def test_bars_are_axle_forces_while_the_axle_is_on_the_deck():
     assert repr(shown).startswith("Animation: 2 axles over viaduct36")
 
 
+def test_the_still_picture_is_the_frame_of_the_deepest_sag(browser, tmp_path, crossing):
+    """Where no script runs it is all there is; the player starts from it and must not move a thing."""
+    page, _ = opened(browser, tmp_path, crossing)
+    names = {"data-deck": ("points",), "data-train": ("transform",), "data-dot": ("cx", "cy"), "data-wheel": ("cx", "cy"),
+             "data-bar": ("x1", "y1", "x2", "y2")}  # fmt: skip
+    for name, keys in names.items():
+        still = [[e.get(k) for k in keys] for e in picture(crossing).iter() if e.get(name) is not None]
+        played = page.eval_on_selector_all(
+            f"[{name}]", "(all, keys) => all.map(e => keys.map(k => e.getAttribute(k)))", list(keys)
+        )
+        for a, b in zip(still, played, strict=True):
+            assert np.allclose(*([float(v) for v in re.findall(r"-?[\d.]+", " ".join(s))] for s in (a, b)), atol=0.11), name
+    d = data(crossing)
+    assert d["start"] == np.argmin(d["value"])
+    page.close()
+
+
 def test_a_given_exaggeration_and_place_are_used(run):
     shown = animate_crossing(run, x=9.0, exaggeration=50.0, frames=40)
     d = data(shown)

@@ -383,16 +383,25 @@ def _draw_bridge(drawing: _Drawing, data: dict, run: Crossing, scale: float, tim
             at = [middle + c.x for c in car.contacts if c.body == name]
             wide = scale * (max(at) - min(at)) + 8
             cars.append(_tag("rect", x=scale * min(at) - 4, y=rail - 15, width=wide, height=5))
-    look = {"fill": "#fbeee4", "stroke": _FORCE, "stroke-width": 1.4}
+    # All that moves stands where it is in the frame that is shown first.
+    frame = data["start"]
+    across, down = np.linspace(left, left + span, len(data["deck"][frame])), rail + np.array(data["deck"][frame])
+    look = {"fill": "#fbeee4", "stroke": _FORCE, "stroke-width": 1.4, "transform": f"translate({head[frame]:.1f} 0)"}
     drawing.items.append(f"<g data-train='' {_attributes(look)}>{''.join(cars)}</g>")
-    line = {"fill": "none", "points": f"{left:.1f},{rail:g} {left + span:.1f},{rail:g}", "data-deck": ""}
+    line = {"fill": "none", "points": _points(zip(across, down, strict=True)), "data-deck": ""}
     drawing.items.append(_tag("polyline", stroke=_DECK, transform="translate(0 5)", **line, **{"stroke-width": 8}))
     drawing.items += [
         _tag("polygon", points=_points([[p - 8, rail + 26], [p + 8, rail + 26], [p, rail + 11]]), fill=_DECK)
         for p in (left + scale * s for s in deck.supports)
     ]
-    drawing.items += [_tag("line", stroke=_FORCE, **{"data-bar": "", "stroke-width": 3.5, "stroke-opacity": 0}) for _ in delays]
-    drawing.items += [_tag("circle", r=3.5, fill=_FORCE, **{"data-wheel": ""}) for _ in delays]
+    places = head[frame] - scale * np.array(delays)
+    lows = np.interp(places, across, down, left=rail, right=rail)
+    for place, low, (first, bar) in zip(places, lows, bars, strict=True):
+        long = bar[frame - first] if 0 <= frame - first < len(bar) else 0.0
+        line = {"x1": place, "x2": place, "y1": low + 9, "y2": low + 9 + long, "stroke-opacity": int(long != 0.0)}
+        drawing.items.append(_tag("line", stroke=_FORCE, **{"data-bar": "", "stroke-width": 3.5}, **line))
+    for place, low in zip(places, lows, strict=True):
+        drawing.items.append(_tag("circle", cx=place, cy=low - 3.5, r=3.5, fill=_FORCE, **{"data-wheel": ""}))
     drawing.items.append(_tag("line", x1=16, x2=16, y1=150, y2=150 + per_newton * rest, stroke=_FORCE, **{"stroke-width": 3.5}))
     drawing.items.append(_text(24, 150 + per_newton * rest - 2, f"{rest / 1e3:.4g} kN, an axle at rest"))
     return rest
@@ -425,7 +434,8 @@ def _draw_history(drawing: _Drawing, data: dict, run: Crossing, x: float, time: 
     )
     line = {"points": _points(np.column_stack([across, up])), "fill": "none", "stroke": _MOTION, "stroke-width": 1.6}
     drawing.items.append(_tag("polyline", **line))
-    drawing.items.append(_tag("circle", r=5, fill=_MOTION, stroke="white", **{"data-dot": ""}))
+    x_dot, y_dot = data["dot"][data["start"]]
+    drawing.items.append(_tag("circle", cx=x_dot, cy=y_dot, r=5, fill=_MOTION, stroke="white", **{"data-dot": ""}))
 
 
 def _pace(ratio: float) -> str:
