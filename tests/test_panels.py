@@ -157,7 +157,7 @@ def test_the_paper_case_gives_the_known_numbers(all_panels):
 def test_a_value_seen_before_is_not_computed_again():
     runs = []
 
-    def compute(case):
+    def compute(case, progress):
         runs.append(case.get("run.speed"))
 
     control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)

@@ -115,8 +115,19 @@ class Crossing:
 
         Order of wheels as in ``train.wheels``. After a car has left the deck its motion decays freely on the track.
         """
-        felt = self._felt if self.shown > 0 else None
-        return inputs.frozen(self.coupling.wheel_forces(self.passes[self.shown], felt))
+        return inputs.frozen(np.concatenate([self._wheels_of(car) for car in range(len(self.coupling.rigid))]))
+
+    @cached_property
+    def _known(self) -> dict[int, np.ndarray]:
+        """Wheel forces by car (from 0), as far as they were asked for."""
+        return {}
+
+    def _wheels_of(self, car: int) -> np.ndarray:
+        """Wheel forces of one car (from 0), shape (its wheels, 2, n)."""
+        if car not in self._known:
+            felt = self._felt if self.shown > 0 else None
+            self._known[car] = inputs.frozen(self.coupling.car_wheel_forces(car, self.passes[self.shown], felt))
+        return self._known[car]
 
     @cached_property
     def _felt(self) -> DeckState:
@@ -161,7 +172,7 @@ class Crossing:
         """
         inputs.choice("at", at, ("track", "centre"))
         index = inputs.integer("car", car, least=1, most=self.train.wheels[-1].car) - 1
-        forces = np.concatenate([f for f, w in zip(self.wheel_forces, self.train.wheels, strict=True) if w.car == car])
+        forces = self._wheels_of(index).reshape(-1, len(self.time))
         if not static:
             forces = forces - self.coupling.static[index][:, None]
         matrix = self.train.condensation(index, "condensed").matrix[0]

@@ -147,15 +147,16 @@ class Coupling:
         `felt` is the deck's motion that `delta` answers to: behind the deck a car's motion decays freely on the track. None:
         a rigid deck.
         """
-        rows = []
-        for car, (rigid, static) in enumerate(zip(self.rigid, self.static, strict=True)):
-            total = rigid + static[:, None]
-            window = self.windows[car]
-            total[:, window] += delta[car]
-            if felt is not None and window.stop < total.shape[1] and len(self.train.groups()) > 0:
-                total[:, window.stop :] += self.decay(felt, car)
-            rows.append(total.reshape(-1, 2, total.shape[1]))
-        return np.concatenate(rows)
+        return np.concatenate([self.car_wheel_forces(car, delta, felt) for car in range(len(self.rigid))])
+
+    def car_wheel_forces(self, car: int, delta: Delta, felt: DeckState | None) -> np.ndarray:
+        """Return what `wheel_forces` gives for one car (from 0), shape (its wheels, 2, n)."""
+        total = self.rigid[car] + self.static[car][:, None]
+        window = self.windows[car]
+        total[:, window] += delta[car]
+        if felt is not None and window.stop < total.shape[1] and len(self.train.groups()) > 0:
+            total[:, window.stop :] += self.decay(felt, car)
+        return total.reshape(-1, 2, total.shape[1])
 
     def decay(self, state: DeckState, car: int) -> np.ndarray:
         """Return how one car's wheel forces decay on the level track behind the deck, shape (2 wheels, samples after it).

@@ -147,14 +147,14 @@ def _time_step(train: Train | AxleTrain, deck: Deck, track: Track, speed: float,
     return step
 
 
-def default_time_step(train: Train | AxleTrain, track: Track, speed: float) -> float:
+def default_time_step(train: Train | AxleTrain, track: Track, speed: float, most: float = 1e-3) -> float:
     """Return the time step used when none is given, s.
 
-    At most 1 ms and a twentieth of the shortest wave or notch, and a whole fraction of the time between cars, so that all
-    cars meet the samples alike and are computed together.
+    At most 1 ms (or what is given for it) and a twentieth of the shortest wave or notch, and a whole fraction of the time
+    between cars, so that all cars meet the samples alike and are computed together.
     """
     shortest = min([track.shortest, *(n.shortest for n in train.notches)])
-    most = min(1e-3, shortest / speed / (2 * SAMPLES_PER_LENGTH))
+    most = min(most, shortest / speed / (2 * SAMPLES_PER_LENGTH))
     if len(train.centres) == 1:
         return most
     between = float(train.centres[1] - train.centres[0]) / speed

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from .. import inputs
 from ..deck import Deck, rayleigh_ratio
 from ..inputs import InputError
-from .drawing import ALONG, GREY, curve, finish, grid, log_frequencies, look, note, one
+from .drawing import ALONG, GREY, curve, finish, grid, is_live, log_frequencies, look, note, one, rung
 
 
 def deck_mode(deck: Deck, mode: int, ax: Axes | None = None) -> Axes:
@@ -69,7 +69,8 @@ def damping(alpha: float, beta: float, marks: Mapping[str, float] | None = None,
     """
     ax = one(ax, 3.4)
     places = list((marks or {}).values())
-    f = np.geomspace(min([0.5, *places]) * 0.9, max([60.0, *places]) * 1.1, 300)
+    low, high = min([0.5, *places]) * 0.9, max([60.0, *places]) * 1.1
+    f = np.geomspace(*((1 / rung(1 / low), rung(high)) if is_live(ax) else (low, high)), 300)
     style = look("damping")
     total = style.factor * rayleigh_ratio(alpha, beta, f)
     curve(ax, "mass", f, style.factor * rayleigh_ratio(alpha, 0.0, f), label="mass part", color=GREY, ls="--")
@@ -79,6 +80,7 @@ def damping(alpha: float, beta: float, marks: Mapping[str, float] | None = None,
     curve(ax, "points", places, values, color="k", ls="", marker="o", ms=4.5, zorder=3)
     log_frequencies(ax)
     most = 1.9 * max([5.0, *values])
+    most = rung(most) if is_live(ax) else most
     above = 0.0
     for place, value, name in sorted(zip(places, values, marks or {}, strict=True)):
         close = place < 1.12 * above

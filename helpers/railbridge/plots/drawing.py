@@ -18,7 +18,7 @@ from matplotlib.patches import Rectangle
 
 from ..inputs import choice
 
-__all__ = ["COMPARED", "GREY", "LOOKS", "Look", "curve", "finish", "grid", "live", "mark", "note", "one", "shade"]
+__all__ = ["COMPARED", "GREY", "LOOKS", "Look", "curve", "finish", "grid", "hold", "live", "mark", "note", "one", "shade"]
 
 WIDTH = 9.0  # inch, 900 px in a notebook
 GREY = "#8a8a8a"
@@ -82,6 +82,10 @@ LOOKS = {
 }
 """One look for each quantity; names as in the results."""
 
+_RUNGS = (1.0, 1.5, 2.5, 4.0, 6.0, 10.0)
+_FINE_RUNGS = (1.0, 1.2, 1.4, 1.7, 2.0, 2.4, 2.8, 3.4, 4.0, 4.8, 5.6, 6.8, 8.0, 10.0)
+"""Ends of a live axis, times a power of ten: they move seldom, and the same case has the same ones. Fine ones along x."""
+
 
 def one(ax: Axes | None, height: float = 3.0) -> Axes:
     """Return the given axes, or that of a new figure of notebook width."""
@@ -99,7 +103,7 @@ def grid(axes: Sequence[Axes] | None, rows: int, columns: int, height: float, **
 
 
 def live(figure: Figure) -> None:
-    """Let every axes of a figure move its artists from now on, and keep its limits while the data fill them well."""
+    """Let every axes of a figure move its artists from now on, and end at round numbers that seldom change."""
     for ax in figure.axes:
         ax.set_gid("live")
         for axis, scale in (("x", ax.get_xscale()), ("y", ax.get_yscale())):
@@ -107,9 +111,15 @@ def live(figure: Figure) -> None:
                 ax.locator_params(axis=axis, nbins=6)  # text is what takes time to draw
 
 
+def hold(figure: Figure, held: bool) -> None:
+    """Let a live figure keep its limits while the data stay within them and are not lost in them, or let go again."""
+    for ax in figure.axes:
+        ax.set_gid("live, held" if held else "live")
+
+
 def is_live(ax: Axes) -> bool:
     """Return whether an axes moves its artists instead of drawing new ones."""
-    return ax.get_gid() == "live"
+    return ax.get_gid() in ("live", "live, held")
 
 
 def found(ax: Axes, name: str):
@@ -182,10 +192,15 @@ def finish(ax: Axes, x: str | None = None, y: str | None = None, title: str | No
         ax.set_title(title, loc="left", fontsize="medium")
     labels = [t for t in ax.get_legend_handles_labels()[1] if not t.startswith("_")] if legend else []
     shown = ax.get_legend()
-    if labels and (shown is None or [t.get_text() for t in shown.get_texts()] != labels):
+    if labels and shown is not None and len(shown.get_texts()) == len(labels) and is_live(ax):
+        for text, label in zip(shown.get_texts(), labels, strict=True):
+            text.set_text(label)
+    elif labels and (shown is None or [t.get_text() for t in shown.get_texts()] != labels):
         side = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0)}
         room = 11.5 * ax.get_position().width * ax.figure.get_figwidth()  # letters
         columns = int(np.clip(room / (max(map(len, labels)) + 7), 1, len(labels)))
+        if sum(map(len, labels)) + 6 * len(labels) <= room:
+            columns = len(labels)
         ax.legend(ncols=columns, frameon=False, borderaxespad=0.1, fontsize="small", handlelength=2.6, **side)
     if not is_live(ax) and ax.get_xscale() == "linear":
         ax.margins(x=0.0)
@@ -205,22 +220,40 @@ def log_frequencies(ax: Axes) -> None:
     ax.xaxis.set_minor_formatter("")
 
 
+def rung(value: float, rungs: Sequence[float] = _RUNGS) -> float:
+    """Return the next round number above a positive value, where an axis may end."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(power * next(r for r in rungs if value <= power * r * (1 + 1e-9)))
+
+
 def _fit(ax: Axes) -> None:
-    """Move a live axes' limits only if the data leave them or fill less than a third."""
+    """Give a live axes round limits around its data."""
     lines = [line for line in ax.lines if line.get_transform().contains_branch(ax.transData) and len(line.get_xdata())]
-    for values, get, put, log, pad in (
-        ([line.get_xdata() for line in lines], ax.get_xlim, ax.set_xlim, ax.get_xscale() == "log", 0.0),
-        ([line.get_ydata() for line in lines], ax.get_ylim, ax.set_ylim, ax.get_yscale() == "log", 0.08),
+    for values, get, put, log, along in (
+        ([line.get_xdata() for line in lines], ax.get_xlim, ax.set_xlim, ax.get_xscale() == "log", True),
+        ([line.get_ydata() for line in lines], ax.get_ylim, ax.set_ylim, ax.get_yscale() == "log", False),
     ):
         values = np.concatenate([np.asarray(v, dtype=float) for v in values]) if values else np.array([])
         values = values[np.isfinite(values) & ((values > 0) | (not log))]
         if not len(values):
             continue
-        values, now = (np.log10(v) if log else np.asarray(v) for v in (values, np.array(get())))
         low, high = float(values.min()), float(values.max())
-        reach = max(high - low, 1e-9)
-        inside = now[0] <= low + 1e-9 * reach and high <= now[1] + 1e-9 * reach
-        if inside and reach > (now[1] - now[0]) * (0.35 if pad else 0.999):
+        start, stop = get()
+        if ax.get_gid() == "live, held" and start <= low and high <= stop and (log or high - low > 0.25 * (stop - start)):
             continue
-        limits = np.array([low - pad * reach, high + pad * reach])
-        put(10**limits if log else limits)
+        put(_round_limits(low, high, log, along))
+
+
+def _round_limits(low: float, high: float, log: bool, along: bool) -> tuple[float, float]:
+    """Return round limits: whole decades; or, either way, a rung along x, halves of the larger rung along y."""
+    if log:
+        first, last = np.floor(np.log10(low) + 1e-9), np.ceil(np.log10(high) - 1e-9)
+        return 10.0**first, 10.0 ** max(last, first + 1)
+    reach = max(abs(low), abs(high))
+    if reach == 0.0:
+        return -1.0, 1.0
+    if along:
+        return tuple(float(np.sign(v) * rung(abs(v), _FINE_RUNGS)) if v else 0.0 for v in (min(low, 0.0), max(high, 0.0)))
+    part = rung(1.04 * reach) / 2
+    below, above = (part * np.ceil((v + 0.02 * reach) / part) if v > 0 else 0.0 for v in (-low, high))
+    return -float(below), float(above)

@@ -13,7 +13,7 @@ from ..inputs import InputError
 from ..track import FadeIn, Notch, Track
 from ..train import AxleTrain, Train
 from ..vehicle import Vehicle
-from .drawing import ALONG, COMPARED, TIME, curve, finish, log_frequencies, look, note, one, shade
+from .drawing import ALONG, COMPARED, TIME, curve, finish, is_live, log_frequencies, look, note, one, rung, shade
 
 
 def irregularity(
@@ -166,10 +166,10 @@ def frequencies(
     force = look("force_z")
     for name, f in (mark or {}).items():
         curve(ax, f"mark {name}", [f, f], [0.0, 1.0], label=f"{name} {f:.4g} Hz", color=force.colour, lw=2.5)
-    low = min([float(values[0]), *(mark or {}).values()])
+    low, high = 0.75 * min([float(values[0]), *(mark or {}).values()]), max([most, *(1.1 * f for f in (mark or {}).values())])
     log_frequencies(ax)
     finish(ax, "frequency (Hz)")
-    ax.set(xlim=(0.75 * low, max([most, *(1.1 * f for f in (mark or {}).values())])), ylim=(0.0, 1.0), yticks=[])
+    ax.set(xlim=(1 / rung(1 / low), rung(high)) if is_live(ax) else (low, high), ylim=(0.0, 1.0), yticks=[])
     ax.spines["left"].set_visible(False)
     return ax
 
