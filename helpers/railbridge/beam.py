@@ -149,9 +149,7 @@ class Beam:
 
     def piece(self, bearing: Bearing) -> int:
         """Return which simple span (from 0) a bearing carries; 0 in a continuous deck."""
-        if bearing.span is not None:
-            return bearing.span - 1
-        return int(np.searchsorted(self.joints, bearing.x))
+        return 0 if bearing.span is None else bearing.span - 1
 
     def stiffness_of(self, name: str) -> float:
         """Return the stiffness of a field: EA, E I_z, E I_y or G J."""
@@ -190,17 +188,15 @@ class Beam:
         at_end = abs(self._span_ends[nearest] - bearing.x) <= 1e-6 * self.length
         if at_end:
             bearing = replace(bearing, x=float(self._span_ends[nearest]))
-        meeting = (nearest, nearest + 1) if at_end and bearing.x in self.joints else ()
-        if bearing.span is None:
-            return [replace(bearing, span=span) for span in meeting] or [bearing]
-        if bearing.span not in meeting:
-            allowed = (
-                f"must be {meeting[0]} or {meeting[1]}, which meet there"
-                if meeting
-                else "can only be told where simple spans meet"
-            )
-            raise InputError(f"{here}: span", bearing.span, allowed, "Leave span out elsewhere")
-        return [bearing]
+        if self.continuous:
+            if bearing.span is not None:
+                raise InputError(f"{here}: span", bearing.span, "can only be told of simple spans", "Or set continuous = false")
+            return [bearing]
+        reached = [i for i in range(1, len(self.spans) + 1) if self._span_ends[i - 1] <= bearing.x <= self._span_ends[i]]
+        if bearing.span is not None and bearing.span not in reached:
+            remedy = "Leave span out for one bearing under each span that meets there"
+            raise InputError(f"{here}: span", bearing.span, f"must be {' or '.join(map(str, reached))}, at this x", remedy)
+        return [replace(bearing, span=span) for span in ([bearing.span] if bearing.span else reached)]
 
     @cached_property
     def _lines(self) -> np.ndarray:

@@ -79,6 +79,8 @@ class Bearing:
             inputs.number(f"{here}: {name}", getattr(self, name), least=-FARTHEST, most=FARTHEST, unit="m", remedy=remedy)
         for name in self.fixed:
             inputs.choice(f"{here}: fixed", name, FIXITIES)
+        if self.span is not None:
+            inputs.integer(f"{here}: span", self.span, least=1)
         springs = inputs.table(f"{here}: stiffness", self.stiffness)
         for name, value in springs.items():
             inputs.choice(f"{here}: stiffness", name, FIXITIES)
