@@ -16,6 +16,8 @@ From nodes to the rail. A line of nodes carries the rail; at each of its places 
 A single line without rx makes the deck rigid in twist. Between the places v and w are cubic: Hermite's with w' = -ry and
 v' = rz where a single line has rotations (those of the cross-section), otherwise splines through the displacements. Twist is a
 parabola through places 1-2-3, 3-4-5 and so on (a last single piece takes the last three), or a spline from a pair of lines.
+Only where the file of nodes says ``# pieces: cubic`` all three are cubics through places 1-2-3-4, 4-5-6-7 and so on; that
+is how `export_modes` writes a deck, so that it comes back exactly.
 
 Modes alone give no section forces, reactions or self-weight (`Deck.recovery` is None), and their sum lacks the static
 flexibility of the modes left out.
@@ -43,6 +45,7 @@ from .nodes import (
     Columns,
     Nodes,
     RailLine,
+    cubics,
     hermite,
     parabolas,
     read_columns,
@@ -290,7 +293,7 @@ def _read_masses(path: str | Path, nodes: Nodes, shapes: np.ndarray, units: Sequ
 
 
 def _refuse_overlap(model: ModalModel, name: str) -> None:
-    """Refuse modes that are not orthogonal or, with masses, not mass-normalised; without masses only warn."""
+    """Refuse modes that are not orthogonal over the masses or not mass-normalised; without masses, a mode given twice."""
     found = model.orthogonality()
     i, j = (model.labels.index(label) for label in found.pair)
     pair = f"modes {found.pair[0]} and {found.pair[1]}"
@@ -308,12 +311,6 @@ def _refuse_overlap(model: ModalModel, name: str) -> None:
             warnings.warn(f"{name}: phi M phi of a mode is {off:.3g} over the given masses instead of 1.", stacklevel=3)
     elif found.worst > 0.9999 and abs(f1 - f2) < 1e-4 * f2:
         raise InputError(f"{name}: {pair}", None, "have one shape and one frequency: a mode is given twice", "Remove one")
-    elif found.worst > 0.5:
-        warnings.warn(
-            f"{name}: {pair} overlap by {found.worst:.2f} over equal masses at all nodes. Give the nodal masses to have this "
-            "checked properly.",
-            stacklevel=3,
-        )
 
 
 # ---- the deck
@@ -360,12 +357,15 @@ def deck_from_modes(
     shapes = model.shapes[:, index]
     for i, j in np.argwhere(~np.isfinite(shapes[0, :, :, 0]))[:1]:
         raise InputError("rail", line.labels[i][j], "is a node of the rail that the modes leave out", "Write the modes there too")
-    functions = PiecewiseCubic(line.x, _along(line, shapes, model.rotations))
-    size = _sizes(functions)
+    functions = _along(line, shapes, model.rotations)
+    motion = _motion(functions)
+    size = np.sum(motion**2, axis=-1)
     moving = np.flatnonzero(np.sqrt(size.sum(axis=1) / size.sum(axis=1).max()) > 1e-6)
     kept = moving[: inputs.integer("modes.count", count, least=1, most=len(moving)) if count is not None else None]
     frequencies = model.frequencies_hz[kept]
     _refuse_units(line, supports, frequencies, size[kept], unusual)
+    if model.masses is None:
+        _warn_of_overlap(model, motion, kept)
     if damping is not None:
         ratios = np.full(len(kept), damping) if np.isscalar(damping) else rayleigh_ratio(*damping, frequencies)
     elif np.isfinite(model.damping_ratios).all():
@@ -387,10 +387,12 @@ def deck_from_modes(
     )
 
 
-def _along(line: RailLine, shapes: np.ndarray, rotations: tuple[bool, bool, bool]) -> np.ndarray:
-    """Return the shapes along the deck axis, shape (n - 1, 4, m, 3), from those of the line's nodes, shape (m, n, k, 6)."""
+def _along(line: RailLine, shapes: np.ndarray, rotations: tuple[bool, bool, bool]) -> PiecewiseCubic:
+    """Return the shapes along the deck axis from those of the line's nodes, shape (m, n, k, 6)."""
     _, uy, uz, rx, ry, rz = np.moveaxis(shapes, -1, 0)
     lateral, vertical, twist = line.axis_motion(uy, uz, rx)
+    if line.cubic and len(line.x) % 3 == 1:
+        return PiecewiseCubic(line.x[::3], np.stack([cubics(line.x, v) for v in (lateral, vertical, twist)], axis=-1))
     result = np.zeros((len(line.x) - 1, 4, len(shapes), 3))
     for c, value, slope, known, names in ((0, lateral, rz, rotations[2], "uy rz"), (1, vertical, -ry, rotations[1], "uz -ry")):
         if known and not line.paired and _agree(line.x, value, slope[..., 0], *names.split()):
@@ -399,7 +401,7 @@ def _along(line: RailLine, shapes: np.ndarray, rotations: tuple[bool, bool, bool
             _warn_of_few_nodes(value, names[:2])
             result[..., c] = spline(line.x, value)
     result[..., 2] = spline(line.x, twist) if line.paired else parabolas(line.x, twist)
-    return result
+    return PiecewiseCubic(line.x, result)
 
 
 def _agree(x: np.ndarray, values: np.ndarray, slopes: np.ndarray, name: str, rotation: str) -> bool:
@@ -434,13 +436,31 @@ def _warn_of_few_nodes(values: np.ndarray, name: str) -> None:
         )
 
 
-def _sizes(functions: PiecewiseCubic) -> np.ndarray:
-    """Return the integrals of v^2, w^2 and (1.5 m twist)^2 along the rail, shape (m, 3)."""
+def _motion(functions: PiecewiseCubic) -> np.ndarray:
+    """Return v, w and 1.5 m twist at points along the rail, shape (m, 3, points), times the root of each point's length.
+
+    Sums of products over the points are then integrals along the deck.
+    """
     points, weights = np.polynomial.legendre.leggauss(4)
     h = np.diff(functions.edges)
     x = (functions.edges[:-1, None] + h[:, None] * (points + 1) / 2).ravel()
     values = functions(x) * [1.0, 1.0, 1.5]
-    return np.einsum("k,kmc->mc", (h[:, None] * weights / 2).ravel(), values**2)
+    return np.moveaxis(values * np.sqrt((h[:, None] * weights / 2).ravel())[:, None, None], 0, -1)
+
+
+def _warn_of_overlap(model: ModalModel, motion: np.ndarray, kept: np.ndarray) -> None:
+    """Warn of modes that look alike along the rail, as over a uniform deck: without masses nobody can say more."""
+    flat = motion[kept].reshape(len(kept), -1)
+    flat = flat / np.linalg.norm(flat, axis=1, keepdims=True)
+    overlap = np.abs(np.triu(flat @ flat.T, 1))
+    i, j = np.unravel_index(np.argmax(overlap), overlap.shape)
+    if overlap[i, j] > 0.3:
+        pair = f"modes {model.labels[kept[i]]} and {model.labels[kept[j]]}"
+        warnings.warn(
+            f"modes: {pair} overlap by {overlap[i, j]:.2f} along the rail of a uniform deck. Give the nodal masses to have "
+            "their orthogonality checked.",
+            stacklevel=3,
+        )
 
 
 def _names(model: ModalModel, size: np.ndarray, kept: np.ndarray) -> tuple[str, ...]:
@@ -471,7 +491,7 @@ def _refuse_units(line: RailLine, supports: Sequence[float], frequencies: np.nda
         allowed = f"lies an order of magnitude away: {usual}"
         remedy = "Check the units of length (mm or m?) and of frequency (Hz, not rad/s); unusual = true if the deck is so"
         raise InputError("modes: first frequency", first, allowed, remedy)
-    if off > 3:
+    if off > 3 and not unusual:
         warnings.warn(f"modes: first frequency {first:.3g} Hz: {usual}. Are the units right (rad/s?)", stacklevel=4)
     vertical = np.flatnonzero(np.argmax(size, axis=1) == 1)
     mass = 1.0 / size[vertical[0], 1] if len(vertical) else 1.0 / size[0].max()
@@ -529,17 +549,16 @@ def deck_from_files(where: str, content: Mapping[str, Any], damping: tuple[float
 def export_modes(deck: Deck, folder: str | Path, units: tuple[str, str] = ("m", "kg")) -> Path:
     """Write a deck's modes as ``nodes.csv``, ``modes.csv`` and the ``deck.toml`` that reads them back; return the last.
 
-    Nodes stand at the ends and in the middle of every piece of the shapes, so that cubics (from values and slopes) and the
-    parabolas of twist (from three nodes) come back exactly. ``ux`` is zero: a deck knows no motion along the track.
-
-    Wrong when: shapes whose slope jumps between pieces (shear-flexible beams), which come back with the mean slope.
+    Nodes stand at the ends and thirds of every piece of the shapes, and the file of nodes says so (``# pieces: cubic``): a
+    cubic through four nodes is then the shape itself, whatever made the deck. Rotations are written for other readers: ``ry`` and
+    ``rz`` are the slopes, mean values where these jump. ``ux`` is zero: a deck knows no motion along the track.
     """
     folder = Path(folder)
     per_metre, mass = PER_METRE[units[0]], math.sqrt(MASSES[units[1]])
     edges = deck.shapes.edges
-    x = np.sort(np.concatenate([edges, (edges[:-1] + edges[1:]) / 2]))
+    x = np.concatenate([(edges[:-1, None] + np.diff(edges)[:, None] * [0.0, 1 / 3, 2 / 3]).ravel(), edges[-1:]])
     value, slope = deck.shapes(x), deck.shapes(x, 1)
-    slope[2:-1:2] = (slope[2:-1:2] + deck.shapes(np.nextafter(edges[1:-1], 0.0), 1)) / 2
+    slope[3:-1:3] = (slope[3:-1:3] + deck.shapes(np.nextafter(edges[1:-1], 0.0), 1)) / 2
     columns = np.zeros((len(x), len(deck.frequencies_hz), 6))
     columns[..., 1:3], columns[..., 3] = value[..., :2] * mass, value[..., 2] * mass / per_metre
     columns[..., 4], columns[..., 5] = -slope[..., 1] * mass / per_metre, slope[..., 0] * mass / per_metre
@@ -557,7 +576,7 @@ def export_modes(deck: Deck, folder: str | Path, units: tuple[str, str] = ("m", 
     toml += ["\n[tracks]\n", *[f"{json.dumps(k)} = {_text(y)}\n" for k, y in deck.tracks.items()]] if deck.tracks else []
     header = "mode,frequency_hz,damping_ratio,name,node,ux,uy,uz,rx,ry,rz\n"
     files = {
-        "nodes.csv": [head, "node,x,y,z\n", *nodes],
+        "nodes.csv": [head, "# pieces: cubic\n", "node,x,y,z\n", *nodes],
         "modes.csv": [head, header, *rows],
         "deck.toml": toml,
     }

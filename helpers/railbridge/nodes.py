@@ -16,8 +16,8 @@ from . import inputs
 from .inputs import InputError
 
 __all__ = [
-    "MASSES", "PER_METRE", "Columns", "Nodes", "RailLine", "hermite", "labelled", "parabolas", "read_columns", "read_nodes",
-    "refuse_repeats", "spline", "stated_units",
+    "MASSES", "PER_METRE", "Columns", "Nodes", "RailLine", "cubics", "hermite", "labelled", "parabolas", "read_columns",
+    "read_nodes", "refuse_repeats", "spline", "stated_units",
 ]  # fmt: skip
 
 PER_METRE = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "in": 1 / 0.0254, "ft": 1 / 0.3048}
@@ -42,12 +42,15 @@ class Columns:
         Line of each row in the file, for messages.
     units : tuple of str, or None
         From a line ``# units: mm, t`` above the header.
+    cubic : bool
+        From a line ``# pieces: cubic``; see `Nodes`.
     """
 
     name: str
     cells: dict[str, list[str]]
     lines: list[int]
     units: tuple[str, ...] | None
+    cubic: bool = False
 
     def numbers(self, column: str) -> np.ndarray:
         """Return a column as finite numbers, naming the line of the first that is none."""
@@ -95,12 +98,11 @@ def read_columns(path: str | Path, required: Sequence[str], optional: Sequence[s
     except (OSError, UnicodeDecodeError) as error:
         allowed = "no such file" if isinstance(error, FileNotFoundError) else f"is not a readable text file ({error})"
         raise InputError("file", path.name, allowed, "A path in a deck file is relative to that file") from None
-    units, rows, lines = None, [], []
+    said, rows, lines = {}, [], []
     for number, line in enumerate(text.splitlines(), start=1):
         if line.lstrip().startswith("#"):
             key, _, value = line.strip(" #,;\t").partition(":")
-            if key.strip().lower() == "units":
-                units = tuple(value.replace(",", " ").split())
+            said[key.strip().lower()] = tuple(value.replace(",", " ").split())
         elif line.strip(" ,;\t"):
             rows.append(line)
             lines.append(number)
@@ -120,7 +122,8 @@ def read_columns(path: str | Path, required: Sequence[str], optional: Sequence[s
     if len(table) < 2:
         raise InputError(path.name, None, "holds no rows")
     columns = zip(*table[1:], strict=True)
-    return Columns(path.name, {h: [c.strip() for c in cells] for h, cells in zip(header, columns, strict=True)}, lines[1:], units)
+    cells = {h: [c.strip() for c in column] for h, column in zip(header, columns, strict=True)}
+    return Columns(path.name, cells, lines[1:], said.get("units"), said.get("pieces") == ("cubic",))
 
 
 def stated_units(found: Columns, given: Sequence[str] | None) -> tuple[str, str]:
@@ -175,7 +178,7 @@ def read_nodes(path: str | Path, units: Sequence[str] | None = None, axes: Seque
     refuse_repeats(table, labels)
     turn = _axes(axes)
     places = np.stack([table.numbers(c) for c in "xyz"], axis=1) / PER_METRE[length] @ turn.T
-    return Nodes(tuple(labels), inputs.frozen(places), (length, mass), turn)
+    return Nodes(tuple(labels), inputs.frozen(places), (length, mass), turn, table.cubic)
 
 
 def refuse_repeats(table: Columns, labels: list[str]) -> None:
@@ -204,12 +207,15 @@ class Nodes:
         Length and mass of the model.
     turn : ndarray, shape (3, 3)
         From the model's axes to ours.
+    cubic : bool
+        The nodes stand at ends and thirds of pieces, in each of which shapes are cubics: as `export_modes` writes them.
     """
 
     labels: tuple[str, ...]
     places: np.ndarray
     units: tuple[str, str] = ("m", "kg")
     turn: np.ndarray = field(default_factory=lambda: np.eye(3))
+    cubic: bool = False
 
     def line(self, rail: Mapping[str, Any] | None = None, axis: Mapping[str, float] | None = None) -> RailLine:
         """Return the line of nodes that carries the rail.
@@ -247,7 +253,8 @@ class Nodes:
         inputs.keys("axis", axis, ["y", "z"])
         origin = [inputs.number(f"axis.{k}", axis.get(k, float(v.mean())), unit="m") for k, v in (("y", y), ("z", z))]
         labels = tuple(tuple(self.labels[p] for p in pair) for pair in index)
-        return RailLine(labels, x[:, 0] - x[0, 0], y - origin[0], z - origin[1], self.units, self.turn)
+        cubic = self.cubic and index.size == len(self.labels)  # a choice of its nodes are no longer ends and thirds
+        return RailLine(labels, x[:, 0] - x[0, 0], y - origin[0], z - origin[1], self.units, self.turn, cubic)
 
     def _pick(self, where: str, choice: dict[str, Any]) -> list[int]:
         """Return the nodes of one line, ascending in x."""
@@ -294,7 +301,7 @@ class RailLine:
         m from the first.
     y, z : ndarray, shape (n, k)
         m from the deck axis.
-    units, turn
+    units, turn, cubic
         See `Nodes`.
     """
 
@@ -304,6 +311,7 @@ class RailLine:
     z: np.ndarray
     units: tuple[str, str]
     turn: np.ndarray
+    cubic: bool = False
 
     @property
     def nodes(self) -> tuple[str, ...]:
@@ -356,4 +364,14 @@ def parabolas(x: np.ndarray, values: np.ndarray) -> np.ndarray:
         h, local = x[e + 1] - x[e], here - x[e]
         powers = np.linalg.solve(np.vander(local / h, 3, increasing=True), values[:, first : first + 3].T)
         result[e, :3] = powers
+    return result
+
+
+def cubics(x: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return cubics through nodes 1-2-3-4, 4-5-6-7, ...; shapes as in `hermite`, but one piece for every four nodes."""
+    result = np.zeros(((len(x) - 1) // 3, 4, len(values)))
+    for e in range(len(result)):
+        here = slice(3 * e, 3 * e + 4)
+        local = (x[here] - x[3 * e]) / (x[3 * e + 3] - x[3 * e])
+        result[e] = np.linalg.solve(np.vander(local, increasing=True), values[:, here].T)
     return result
