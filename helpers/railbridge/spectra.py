@@ -46,7 +46,7 @@ class Spectrum:
 def amplitude_spectrum(signal: np.ndarray, time_step: float, bins: int = BINS, unit: str = "N") -> Spectrum:
     """Return the one-sided amplitude spectrum of a record, mean removed, no window function, no padding.
 
-    A_w = 2 |rfft(F - mean)| / N: a sine of amplitude 1 with a whole number of periods in the record gives one line of
+    ``A_w = 2 |rfft(F - mean)| / N``: a sine of amplitude 1 with a whole number of periods in the record gives one line of
     height 1.
 
     Parameters
