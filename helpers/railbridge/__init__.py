@@ -17,6 +17,7 @@ Everything is SI inside: m, kg, s, N. See the README for the conventions.
 from importlib import import_module as _import_module
 
 from .beam import Beam, Bearing
+from .box import Box, BoxMesh, Pads, box
 from .case import Case, case
 from .checks import compared
 from .crossing import Crossing, NotConvergedError, cross
@@ -33,13 +34,13 @@ from .vehicle import Body, Spring, Vehicle
 __version__ = "0.1.0"
 
 __all__ = [
-    "AxleTrain", "Beam", "Bearing", "Body", "Case", "Crossing", "Deck", "Harmonic", "History", "InputError", "Level",
-    "NotConvergedError", "Notch", "Rails", "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum",
-    "case", "compared", "cross", "deck", "deck_from_table", "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio",
-    "sprung_mass", "steady_forces", "summarize", "vehicle",
+    "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "Case", "Crossing", "Deck", "Harmonic", "History",
+    "InputError", "Level", "NotConvergedError", "Notch", "Pads", "Rails", "Spectrum", "Spring", "Table", "Track", "Train",
+    "Vehicle", "amplitude_spectrum", "box", "case", "compared", "cross", "deck", "deck_from_table", "deviation_percent",
+    "planar_car", "rayleigh", "rayleigh_ratio", "sprung_mass", "steady_forces", "summarize", "vehicle",
 ]  # fmt: skip
 
-_LAZY = ("panels", "paper", "plots", "staggered")
+_LAZY = ("identification", "panels", "paper", "plots", "staggered")
 
 
 def __getattr__(name: str):

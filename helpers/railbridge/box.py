@@ -6,7 +6,7 @@ box, y from its middle to the left. All dimensions are those of the drawing: ove
 
 from __future__ import annotations
 
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -15,12 +15,12 @@ import numpy as np
 
 from . import inputs
 from .beam import Beam, Bearing
-from .deck import Deck, rayleigh, rayleigh_ratio
+from .deck import Deck, rayleigh_ratio
 from .inputs import InputError
 from .section import SectionProperties, refuse_crossing, section_properties
-from .shell import Pad, Plate, Shell, ShellModes, Strip
+from .shell import Pad, Plate, Shell, ShellModes, Strip, mac
 
-__all__ = ["Box", "BoxMesh", "Pads", "box", "box_from_table"]
+__all__ = ["Box", "BoxMesh", "Pads", "beam_motions", "box", "box_from_table", "shell_against_beam"]
 
 
 @dataclass(frozen=True)
@@ -113,12 +113,14 @@ class Box:
     bottom_spacing : float, optional
         Between the webs' middle planes at the bottom, m; default as at the slab (upright webs).
     root_thickness, edge_thickness : float, optional
-        Of the slab over the webs and at its edges, m; default `slab_thickness`. The slab is flat on top and straight
-        between, inside over `haunch_length`.
+        Of the cantilevers at the webs and at their edges, m, straight between; default `slab_thickness`. The slab is flat
+        on top. Between the webs a root thicker than the slab runs out in a haunch.
     haunch_length : float
         m, inwards from the webs' middle planes; default a quarter of their spacing.
     diaphragm_thickness : float or None
         m, of the plates across the box over every bearing line; None: there are none.
+    inner_diaphragms : int
+        Further such plates in each span, equally spaced.
     overhang : float
         m, by which the deck reaches beyond its outer bearing lines; only the shell has it.
     track_mass, edge_mass : float
@@ -151,6 +153,7 @@ class Box:
     edge_thickness: float | None = None
     haunch_length: float | None = None
     diaphragm_thickness: float | None = 0.3
+    inner_diaphragms: int = 0
     overhang: float = 0.3
     track_mass: float = 0.0
     edge_mass: float = 0.0
@@ -182,6 +185,9 @@ class Box:
             inputs.number(
                 f"{where}: diaphragm_thickness", self.diaphragm_thickness, above=0.0, most=10.0, unit="m", remedy=remedy
             )
+        inputs.integer(f"{where}: inner_diaphragms", self.inner_diaphragms, least=0, most=20)
+        if self.inner_diaphragms and self.diaphragm_thickness is None:
+            raise InputError(f"{where}: inner_diaphragms", self.inner_diaphragms, "have no thickness", "Give diaphragm_thickness")
         inputs.number(f"{where}: overhang", self.overhang, least=0.0, most=min(self.spans) / 2, unit="m")
         for key in ("track_mass", "edge_mass"):
             inputs.number(f"{where}: {key}", getattr(self, key), least=0.0, unit="kg/m")
@@ -213,81 +219,77 @@ class Box:
         return float(sum(self.spans))
 
     @property
-    def _widths(self) -> tuple[float, float, float]:
-        """Web thickness along y, m, and y of the web's middle plane at the underside of the slab and of the box."""
-        high, low = self.depth - self.root_thickness / 2, self.bottom_thickness / 2
-        lean = (self.web_spacing - self.bottom_spacing) / 2 / (high - low)
-        at = self.bottom_spacing / 2 + lean * (np.array([self.depth - self.root_thickness, 0.0]) - low)
-        return self.web_thickness * float(np.hypot(1.0, lean)), float(at[0]), float(at[1])
+    def _head_thickness(self) -> float:
+        """Of the slab just inside the webs, m."""
+        return max(self.slab_thickness, self.root_thickness)
+
+    @property
+    def _lean(self) -> float:
+        """How much a web moves outwards for each metre upwards."""
+        rise = self.depth - self._head_thickness / 2 - self.bottom_thickness / 2
+        return (self.web_spacing - self.bottom_spacing) / 2 / rise
+
+    def _web(self, z: float) -> float:
+        """Return y of the left web's middle plane at height z, m."""
+        return self.bottom_spacing / 2 + self._lean * (z - self.bottom_thickness / 2)
+
+    @property
+    def _half_web(self) -> float:
+        """Half a web's thickness along y, m."""
+        return self.web_thickness * float(np.hypot(1.0, self._lean)) / 2
 
     def _refuse_geometry(self, where: str) -> None:
-        clear = self.depth - max(self.root_thickness, self.slab_thickness) - self.bottom_thickness
+        clear = self.depth - max(self._head_thickness, self.edge_thickness) - self.bottom_thickness
         if clear < 0.1:
-            raise InputError(
-                f"{where}: depth", self.depth, f"leaves {clear:.3g} m of height between slab and bottom, must leave 0.1 m",
-                "Make the box deeper or its plates thinner",
-            )  # fmt: skip
-        wide, head, foot = self._widths
-        inner = head - wide / 2, foot + (head - foot) * self.bottom_thickness / (self.depth - self.root_thickness) - wide / 2
-        if min(inner) < 0.05:
-            raise InputError(
-                f"{where}: web_thickness", self.web_thickness, "the webs run into each other",
-                "Set them farther apart or make them thinner",
-            )  # fmt: skip
-        if self.web_spacing + wide > self.slab_width + 1e-9 or 2 * head + wide > self.slab_width + 1e-9:
-            raise InputError(
-                f"{where}: web_spacing", self.web_spacing, f"the webs stand outside the slab, which is {self.slab_width:g} m wide",
-                "Make the slab wider or set the webs closer",
-            )  # fmt: skip
-        if 2 * foot + wide > self.slab_width + 1e-9:
-            raise InputError(
-                f"{where}: bottom_spacing", self.bottom_spacing, "makes the bottom wider than the slab", "Lean the webs inwards"
-            )
-        if self.slab_width - self.web_spacing < 0.1:
-            raise InputError(f"{where}: slab_width", self.slab_width, "leaves no cantilevers; must leave 0.05 m at each side")
+            allowed = f"leaves {clear:.3g} m of height between slab and bottom, must leave 0.1 m"
+            raise InputError(f"{where}: depth", self.depth, allowed, "Make the box deeper or its plates thinner")
+        half = self._half_web
+        if min(self._web(self.depth - self._head_thickness), self._web(self.bottom_thickness)) - half < 0.05:
+            allowed, remedy = "the webs run into each other", "Set them farther apart or make them thinner"
+            raise InputError(f"{where}: web_thickness", self.web_thickness, allowed, remedy)
+        if 2 * max(self.web_spacing / 2, self._web(self.depth - self.root_thickness)) + 2 * half > self.slab_width + 1e-9:
+            allowed = f"the webs stand outside the slab, which is {self.slab_width:g} m wide"
+            raise InputError(f"{where}: web_spacing", self.web_spacing, allowed, "Make the slab wider or set the webs closer")
+        if 2 * self._web(0.0) + 2 * half > self.slab_width + 1e-9:
+            allowed = f"makes the bottom wider than the slab, which is {self.slab_width:g} m wide"
+            raise InputError(f"{where}: bottom_spacing", self.bottom_spacing, allowed, "Lean the webs inwards")
         if not self.haunch_length < self.web_spacing / 2:
-            raise InputError(
-                f"{where}: haunch_length", self.haunch_length, f"must be below half the web spacing, {self.web_spacing / 2:g} m"
-            )
-        for key in ("edge_thickness", "slab_thickness"):
-            if getattr(self, key) > self.depth - self.bottom_thickness:
-                raise InputError(f"{where}: {key}", getattr(self, key), "reaches down to the bottom plate")
+            allowed = f"must be below half the web spacing, {self.web_spacing / 2:g} m"
+            raise InputError(f"{where}: haunch_length", self.haunch_length, allowed)
         refuse_crossing(f"{where}: outline", self.outline)
         refuse_crossing(f"{where}: hole", self.hole)
 
     def thickness(self, y: np.ndarray) -> np.ndarray:
-        """Return the slab's thickness (m) at y (m)."""
-        web, edge = self.web_spacing / 2, self.slab_width / 2
-        places = [0.0, web - self.haunch_length, web, edge]
-        return np.interp(np.abs(y), places, [self.slab_thickness, self.slab_thickness, self.root_thickness, self.edge_thickness])
+        """Return the slab's thickness (m) at y (m); at a web's middle plane the one inside."""
+        y, web = np.abs(y), self.web_spacing / 2
+        inside = np.interp(y, [web - self.haunch_length, web], [self.slab_thickness, self.root_thickness])
+        outside = np.interp(y, [web, self.slab_width / 2], [self.root_thickness, self.edge_thickness])
+        return np.where(y <= web, np.maximum(inside, self.slab_thickness), outside)
 
     @cached_property
     def outline(self) -> np.ndarray:
-        """Corners of the concrete, y and z, m, from the top left anticlockwise seen against x."""
-        wide, head, foot = self._widths
-        under = head + wide / 2
-        right = [
-            (self.slab_width / 2, self.depth),
-            (self.slab_width / 2, self.depth - self.edge_thickness),
-            (under, self.depth - float(self.thickness(under))),
-            (foot + wide / 2, 0.0),
-        ]
-        return np.array(right + [(-y, z) for y, z in reversed(right)])
+        """Corners of the concrete, y and z, m, shape (n, 2)."""
+        half = self._half_web
+        under = self._web(self.depth - self.root_thickness) + half
+        corners = [(self.slab_width / 2, self.depth), (self.slab_width / 2, self.depth - self.edge_thickness)]
+        if under < self.slab_width / 2 - 1e-6:
+            corners.append((under, self.depth - float(self.thickness(max(under, self.web_spacing / 2 + 1e-9)))))
+        corners.append((self._web(0.0) + half, 0.0))
+        return np.array(corners + [(-y, z) for y, z in reversed(corners)])
 
     @cached_property
     def hole(self) -> np.ndarray:
-        """Corners of the cell, y and z, m."""
-        wide, head, foot = self._widths
-        lean = (head - foot) / (self.depth - self.root_thickness)
-        top = head - wide / 2
-        knee = self.web_spacing / 2 - self.haunch_length
-        half = [
-            (foot + lean * self.bottom_thickness - wide / 2, self.bottom_thickness),
+        """Corners of the cell, y and z, m, shape (n, 2)."""
+        half = self._half_web
+        top = self._web(self.depth - self._head_thickness) - half
+        corners = [
+            (self._web(self.bottom_thickness) - half, self.bottom_thickness),
             (top, self.depth - float(self.thickness(top))),
         ]
-        if self.root_thickness != self.slab_thickness and knee < top - 1e-6:
-            half.append((knee, self.depth - self.slab_thickness))
-        return np.array(half + [(-y, z) for y, z in reversed(half)])
+        knee = self.web_spacing / 2 - self.haunch_length
+        if self.root_thickness > self.slab_thickness and knee < top - 1e-6:
+            corners.append((knee, self.depth - self.slab_thickness))
+        return np.array(corners + [(-y, z) for y, z in reversed(corners)])
 
     # ------------------------------------------------------------------ section and beam
 
@@ -306,54 +308,42 @@ class Box:
         """Concrete and what it carries, kg/m; without diaphragms."""
         return self.concrete_mass + self.track_mass + self.edge_mass
 
-    @property
-    def polar_inertia(self) -> float:
-        """Mass moment of inertia about the shear centre per metre, kg m; what is carried lies in the slab's middle plane."""
-        s = self.section
-        below = s.centroid[1] - s.shear_centre[1]
-        concrete = s.second_moment_vertical + s.second_moment_lateral + s.area * below**2
-        lever = self.depth - self.slab_thickness / 2 - s.shear_centre[1]
-        edges = self.edge_mass * ((self.slab_width / 2) ** 2 + lever**2)
-        return self.density * concrete + self.track_mass * (self.web_spacing**2 / 12 + lever**2) + edges
-
-    def beam(self, shear: bool = True, rotary_inertia: bool = True, track_height: bool = True, **options: Any) -> Beam:
-        """Return the beam of this box: bearings where its pads are, about the shear centre.
+    def beam(self, shear: bool = True, rotary_inertia: bool = True, **options: Any) -> Beam:
+        """Return the beam of this box, its bearings where the pads are.
 
         Parameters
         ----------
-        shear, rotary_inertia, track_height : bool
-            Whether the beam bends by shear, resists by the inertia of turning sections, and is loaded at the slab's top.
+        shear, rotary_inertia : bool
+            Whether it gives way in shear, and whether turning sections have inertia.
         **options
             Further attributes of `Beam`.
+
+        Notes
+        -----
+        The mass of tracks and edges is taken at the concrete's centroid, with its inertia about it. Overhangs, diaphragms,
+        distortion of the cell and the cantilevers' own motion are left out: that is what the shell is for.
         """
         s, e = self.section, self.youngs_modulus
         g = e / (2 * (1 + self.poisson_ratio))
-        centre = s.shear_centre[1]
-        extra: dict[str, Any] = {"centroid_height": s.centroid[1] - centre}
+        lever = self.depth - self.slab_thickness / 2 - s.centroid[1]
+        about_y = self.density * s.second_moment_vertical + (self.track_mass + self.edge_mass) * lever**2
+        across = self.track_mass * self.web_spacing**2 / 12 + self.edge_mass * (self.slab_width / 2) ** 2
+        about_z = self.density * s.second_moment_lateral + across
+        given: dict[str, Any] = {
+            "mass": self.mass_per_metre,
+            "bending_stiffness_vertical": e * s.second_moment_vertical,
+            "bending_stiffness_lateral": e * s.second_moment_lateral,
+            "torsional_stiffness": g * s.torsion_constant,
+            "axial_stiffness": e * s.area,
+            "polar_inertia": about_y + about_z,
+            "centroid_height": s.centroid[1] - s.shear_centre[1],
+            "bearings": self._beam_bearings(s.shear_centre[1]),
+        }
         if shear:
-            extra |= {"shear_stiffness_vertical": g * s.shear_area_vertical, "shear_stiffness_lateral": g * s.shear_area_lateral}
+            given |= {"shear_stiffness_vertical": g * s.shear_area_vertical, "shear_stiffness_lateral": g * s.shear_area_lateral}
         if rotary_inertia:
-            lever = self.depth - self.slab_thickness / 2 - s.centroid[1]
-            added = self.track_mass + self.edge_mass
-            across = self.track_mass * self.web_spacing**2 / 12 + self.edge_mass * (self.slab_width / 2) ** 2
-            extra |= {
-                "rotary_inertia_vertical": self.density * s.second_moment_vertical + added * lever**2,
-                "rotary_inertia_lateral": self.density * s.second_moment_lateral + across,
-            }
-        if track_height:
-            extra["track_height"] = self.depth - centre
-        return Beam(
-            self.name,
-            self.spans,
-            mass=self.mass_per_metre,
-            bending_stiffness_vertical=e * s.second_moment_vertical,
-            bending_stiffness_lateral=e * s.second_moment_lateral,
-            torsional_stiffness=g * s.torsion_constant,
-            axial_stiffness=e * s.area,
-            polar_inertia=self.polar_inertia,
-            bearings=self._beam_bearings(centre),
-            **(extra | options),
-        )
+            given |= {"rotary_inertia_vertical": about_y, "rotary_inertia_lateral": about_z}
+        return Beam(self.name, self.spans, **(given | options))
 
     def _beam_bearings(self, centre: float) -> tuple[Bearing, ...]:
         foot = self.bottom_spacing / 2
@@ -361,34 +351,44 @@ class Box:
             Bearing(p.x, p.fixed, side * foot, -p.drop - centre, dict(p.stiffness)) for p in self.bearings for side in p.sides
         )
 
+    def beam_deck(self, modes: int = 20, damping: tuple[float, float] | float = 0.0, **switches: bool) -> Deck:
+        """Return the modal deck of the beam, its rails on top of the slab; see `beam` for the switches."""
+        height = self.depth - self.section.shear_centre[1]
+        return self.beam(**switches).deck(modes, damping, dict(self.tracks), self.slab_width, height)
+
     # ------------------------------------------------------------------ shell
 
     def shell(self, mesh: BoxMesh | None = None) -> Shell:
         """Return the shell of this box.
 
-        Plates lie in the middle planes. Where a web runs into the slab it would be counted twice: that strip carries shear
-        only (see `Strip.counted`). At the bottom corner what is counted twice and what is left out are equal.
+        Plates lie in the middle planes; a cantilever's runs straight from the web's head to its edge. Where a web runs into
+        the slab it would be counted twice: that strip carries shear only (see `Strip.counted`). At the bottom corners what
+        is counted twice and what is left out are equal. What mass is still missing beside the drawing lies on the webs' heads.
         """
         mesh = mesh or BoxMesh()
         web, edge = self.web_spacing / 2, self.slab_width / 2
-        inner = np.linspace(web, -web, mesh.slab + 1)
-        outer = np.linspace(edge, web, mesh.cantilever + 1)
-        y = np.concatenate([outer, inner[1:], -outer[-2::-1]])
-        points = [np.column_stack([y, self.depth - self.thickness(y) / 2])]
+        y = np.concatenate(
+            [
+                np.linspace(edge, web, mesh.cantilever + 1),
+                np.linspace(web, -web, mesh.slab + 1)[1:],
+                np.linspace(-web, -edge, mesh.cantilever + 1)[1:],
+            ]
+        )
+        top, low = self.depth - self._head_thickness / 2, self.bottom_thickness / 2
+        outer = np.interp(np.abs(y), [web, edge], [top, self.depth - self.edge_thickness / 2])
+        points = [np.column_stack([y, np.where(np.abs(y) > web, outer, self.depth - self.thickness(y) / 2)])]
         heads = mesh.cantilever, mesh.cantilever + mesh.slab
         strips = []
         for i in range(len(y) - 1):
             part = "slab" if heads[0] <= i < heads[1] else "cantilevers"
             added = self.track_mass / self.web_spacing if part == "slab" else 0.0
-            # The mean over the strip keeps the mass of the haunch.
-            thickness = float(self.thickness(np.linspace(y[i], y[i + 1], 21)).mean())
-            strips.append(Strip(i, i + 1, thickness, part, added))
-        top, low = self.depth - self.root_thickness / 2, self.bottom_thickness / 2
-        heights = np.linspace(low, self.depth - self.root_thickness, mesh.web + 1)
-        lean = (self.web_spacing - self.bottom_spacing) / 2 / (top - low)
+            # The mean over the strip keeps the mass of cantilevers and haunches.
+            share = (np.arange(20) + 0.5) / 20
+            strips.append(Strip(i, i + 1, float(self.thickness(y[i] + share * (y[i + 1] - y[i])).mean()), part, added))
+        heights = np.linspace(low, self.depth - self._head_thickness, mesh.web + 1)
         feet, count = [], len(y)
         for side, head in zip((1, -1), heads, strict=True):
-            points.append(np.column_stack([side * (self.bottom_spacing / 2 + lean * (heights - low)), heights]))
+            points.append(np.column_stack([side * self._web(heights), heights]))
             ids = [*range(count, count + len(heights)), head]
             feet.append(count)
             count += len(heights)
@@ -398,30 +398,36 @@ class Box:
         points.append(np.column_stack([across[1:-1], np.full(mesh.slab - 1, low)]))
         ids = [feet[0], *range(count, count + mesh.slab - 1), feet[1]]
         strips += [Strip(a, b, self.bottom_thickness, "bottom") for a, b in zip(ids[:-1], ids[1:], strict=True)]
-        points = np.concatenate(points)
-        stations = self._stations(mesh)
-        return Shell(
-            points,
+        shell = Shell(
+            np.concatenate(points),
             tuple(strips),
-            stations,
+            self._stations(mesh),
             self.youngs_modulus,
             self.poisson_ratio,
             self.density,
-            plates=self._diaphragms(points, heads, np.append(heights, top)),
+            plates=self._diaphragms(np.concatenate(points), heads, np.append(heights, top)),
             pads=tuple(
                 Pad(p.x, p.length, feet[0 if side > 0 else 1], low + p.drop, p.fixed, dict(p.stiffness))
                 for p in self.bearings
                 for side in p.sides
             ),
-            line_masses={0: self.edge_mass / 2, len(y) - 1: self.edge_mass / 2},
         )
+        missing = self.concrete_mass + self.track_mass - shell.mass_per_metre
+        masses = dict.fromkeys(heads, missing / 2) | dict.fromkeys((0, len(y) - 1), self.edge_mass / 2)
+        return replace(shell, line_masses=masses)
 
     def _stations(self, mesh: BoxMesh) -> np.ndarray:
         lines = np.concatenate([[0.0], np.cumsum(self.spans)])
         places = [np.linspace(a, b, mesh.along + 1) for a, b in zip(lines[:-1], lines[1:], strict=True)]
         ends = [[-self.overhang], [self.length + self.overhang]] if self.overhang else []
-        # The diaphragms stand at the bearing lines, which may lie inside a span, too.
-        return np.unique(np.round(np.concatenate([*places, *ends, [p.x for p in self.bearings]]), 9))
+        return np.unique(np.round(np.concatenate([*places, *ends, self._diaphragm_places]), 9))
+
+    @property
+    def _diaphragm_places(self) -> np.ndarray:
+        """Bearing lines, which may lie inside a span, too, and inner diaphragms, m."""
+        lines = np.concatenate([[0.0], np.cumsum(self.spans)])
+        inner = [np.linspace(a, b, self.inner_diaphragms + 2)[1:-1] for a, b in zip(lines[:-1], lines[1:], strict=True)]
+        return np.unique(np.round(np.concatenate([[p.x for p in self.bearings], *inner]), 9))
 
     def _diaphragms(self, points: np.ndarray, heads: tuple[int, int], heights: np.ndarray) -> tuple[Plate, ...]:
         """Plates over every bearing line; their grid joins the nodes of slab, webs and bottom."""
@@ -437,8 +443,7 @@ class Box:
             [spacing[:, None] * share, low + rise[:, None] * (slab[:, 1] - low)],
             axis=2,
         )
-        lines = sorted({p.x for p in self.bearings})
-        return tuple(Plate(x, self.diaphragm_thickness, grid) for x in lines)
+        return tuple(Plate(float(x), self.diaphragm_thickness, grid) for x in self._diaphragm_places)
 
     def shell_deck(self, modes: int = 15, damping: tuple[float, float] | float = 0.0, mesh: BoxMesh | None = None) -> Deck:
         """Return the modal deck of the shell.
@@ -448,6 +453,10 @@ class Box:
         slab. Section forces and reactions are not recovered (`recovery` is None), and modes are not corrected statically.
         """
         mesh = mesh or BoxMesh()
+        if np.isscalar(damping):
+            inputs.number("deck.damping", damping, least=0.0)
+        else:
+            damping = inputs.numbers("deck.damping", damping, count=2, least=0.0)
         shell = self.shell(mesh)
         result = shell.modes(modes)
         ratios = rayleigh_ratio(*damping, result.frequencies_hz) if not np.isscalar(damping) else np.full(modes, damping)
@@ -462,6 +471,7 @@ class Box:
             supports=tuple(sorted({p.x for p in self.bearings})),
             tracks=dict(self.tracks),
             width=self.slab_width,
+            track_height=self._head_thickness / 2,
             mass_per_metre=self.mass_per_metre,
         )
 
@@ -481,6 +491,61 @@ def _area(corners: np.ndarray) -> float:
     """Area inside a closed line of corners."""
     y, z = corners.T
     return abs(float(y @ np.roll(z, -1) - z @ np.roll(y, -1))) / 2
+
+
+def beam_motions(beam: Beam, x: np.ndarray, height: float = 0.0) -> np.ndarray:
+    """Return the rigid motions of a beam's sections in its modes.
+
+    Parameters
+    ----------
+    beam : Beam
+        Of one piece.
+    x : ndarray, shape (s,)
+        Places, m.
+    height : float
+        m above the deck axis, of the point whose translations are wanted.
+
+    Returns
+    -------
+    ndarray, shape (s, 6, m)
+        x y z roll pitch yaw in all modes of the mesh, as `Shell.section_motions`; straight between nodes.
+    """
+    mesh, vectors = beam.mesh, beam.modes.vectors
+    nodal = vectors[: 6 * len(mesh.nodes)].reshape(len(mesh.nodes), 6, -1)
+    right = np.clip(np.searchsorted(mesh.nodes, x), 1, len(mesh.nodes) - 1)
+    share = np.clip((x - mesh.nodes[right - 1]) / (mesh.nodes[right] - mesh.nodes[right - 1]), 0.0, 1.0)[:, None, None]
+    u, v, w, roll, yaw, minus_pitch = ((1 - share) * nodal[right - 1] + share * nodal[right]).transpose(1, 0, 2)
+    # u is that of the centroid, v and w those of the axis.
+    along = u - minus_pitch * (height - beam.centroid_height)
+    return np.stack([along, v - roll * height, w, roll, -minus_pitch, yaw], axis=1)
+
+
+def shell_against_beam(shell: Shell, modes: ShellModes, beam: Beam, height: float, count: int = 30) -> np.ndarray:
+    """Return the modal assurance criterion between a shell's modes and the lowest modes of a beam.
+
+    Both are compared as rigid motions of the sections, weighted with the section's mass and inertias. The shell's own norm
+    counts its local motion, too: a mode of the plates is like no mode of the beam.
+
+    Parameters
+    ----------
+    shell, modes
+        The shell and its modes.
+    beam : Beam
+    height : float
+        m, of the shell's centre of mass above the deck axis of the beam.
+    count : int
+        Modes of the beam.
+
+    Returns
+    -------
+    ndarray, shape (modes of the shell, count)
+    """
+    inside = (shell.stations >= 0.0) & (shell.stations <= beam.length)
+    theirs = beam_motions(beam, shell.stations[inside], height)[:, :, :count]
+    weights = np.repeat(shell.tributary[inside], 6) * np.tile(shell.inertias, int(inside.sum()))
+    ours = modes.motions[inside].reshape(len(weights), -1)
+    rigid = 1.0 - modes.shares["local"]
+    return mac(ours, theirs.reshape(len(weights), -1), weights) * rigid[:, None]
 
 
 _DIMENSIONS = tuple(f.name for f in fields(Box) if f.name not in ("name", "spans", "bearings", "tracks"))

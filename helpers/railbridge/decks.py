@@ -1,16 +1,19 @@
 """Decks as data: the deck files of ``data/decks`` and the ``[deck]`` of a case.
 
-A deck file says which maker builds the modal deck: a beam from a section or from stiffnesses, or another program's modes.
+A deck file says which maker builds the modal deck: a beam from a section or from stiffnesses, the dimensions of a box as a
+beam or as a shell, or another program's modes.
 """
 
 from __future__ import annotations
 
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from . import exchange, inputs
 from .beam import Beam
 from .bearings import FARTHEST, FIXITIES, Bearing
+from .box import BoxMesh, box_from_table
 from .deck import Deck, rayleigh
 from .inputs import InputError
 
@@ -41,6 +44,10 @@ _BEAM_KEYS = (
     "length", "spans", "section", *_STIFFNESSES, "mass", "damping", "modes", "bearing", "tracks", "width", "elements",
     "continuous", "rotary_inertia", "centroid_height", "track_height", "name", "source", "note",
 )  # fmt: skip
+_BOX_KEYS = (
+    "length", "spans", "box", "model", "mesh", "shear", "rotary_inertia", "damping", "modes", "bearing", "tracks", "name",
+    "source", "note",
+)  # fmt: skip
 
 
 def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
@@ -49,7 +56,8 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
     A beam's keys: ``length`` or ``spans`` (m) and ``continuous``; either ``[section]`` (E, nu, density, A, I_y, I_z, J, shear
     areas) or stiffnesses and ``mass``; ``damping`` = {ratio, frequencies_hz} (Rayleigh) or {modal}; ``modes``; ``[[bearing]]``
     x, y, z, fixed, stiffness, span; ``rotary_inertia``; ``centroid_height``; ``tracks``, ``width``, ``track_height``.
-    With ``modes`` as a table the deck comes from another program's modes; see `exchange`.
+    With the table ``[box]`` the deck is a box girder, ``model`` = "beam" (with ``shear``, ``rotary_inertia``) or "shell" (with
+    ``[mesh]``); see `box`. With ``modes`` as a table the deck comes from another program's modes; see `exchange`.
 
     Raises
     ------
@@ -59,7 +67,25 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
     where = f"deck {name}" if name != "deck" else name
     if isinstance(content.get("modes"), dict):
         return _from_modes(where, name, content)
-    return _from_beam(where, name, content)
+    return _from_box(where, name, content) if "box" in content else _from_beam(where, name, content)
+
+
+def _from_box(where: str, name: str, content: dict[str, Any]) -> Deck:
+    """Build a deck from the dimensions of a box girder; see `box`."""
+    inputs.keys(where, content, _BOX_KEYS, ["box", "damping"])
+    girder = box_from_table(name, content)
+    damping = _damping(where, inputs.table(f"{where}: damping", content["damping"]))
+    if inputs.choice(f"{where}: model", content.get("model", "beam"), ("beam", "shell")) == "shell":
+        for key in ("shear", "rotary_inertia"):
+            if key in content:
+                raise InputError(f"{where}: {key}", content[key], "is a switch of the beam model", "Remove it, a shell has both")
+        mesh = inputs.table(f"{where}: mesh", content.get("mesh", {}))
+        inputs.keys(f"{where}: mesh", mesh, [f.name for f in fields(BoxMesh)])
+        return girder.shell_deck(content.get("modes", 15), damping, BoxMesh(**mesh))
+    if "mesh" in content:
+        raise InputError(f"{where}: mesh", content["mesh"], "belongs to the shell model", 'Remove it, or set model = "shell"')
+    switches = {k: inputs.boolean(f"{where}: {k}", content[k]) for k in ("shear", "rotary_inertia") if k in content}
+    return girder.beam_deck(content.get("modes", 20), damping, **switches)
 
 
 def _from_beam(where: str, name: str, content: dict[str, Any]) -> Deck:

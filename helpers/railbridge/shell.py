@@ -21,7 +21,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.sparse import csc_array, csr_array, vstack
+from scipy.sparse import csc_array, csr_array, diags_array, eye_array, vstack
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from . import inputs
@@ -184,6 +184,11 @@ def _element(corners: np.ndarray, prop) -> tuple[np.ndarray, np.ndarray]:
     return result[0], result[1]
 
 
+def _freedoms(quads: np.ndarray) -> np.ndarray:
+    """Return the freedoms of elements from their corner nodes, shape (e, 24)."""
+    return (6 * quads[:, :, None] + np.arange(6)).reshape(-1, 24)
+
+
 @dataclass(frozen=True, eq=False)
 class Shell:
     """A prismatic shell on pads.
@@ -292,36 +297,47 @@ class Shell:
         return prop
 
     @cached_property
-    def matrices(self) -> tuple[csr_array, csr_array]:
-        """K and M over all freedoms (six a node), bearings not yet applied, sparse."""
-        blocks, quads = [], []
+    def _elements(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Equal elements together: their stiffness and mass, shape (24, 24), and corner nodes, shape (e, 4)."""
+        result = []
         lengths = np.round(np.diff(self.stations), 9)
         for strip, row in zip(self.strips, self._strip_quads, strict=True):
             prop = self._property(strip.thickness, strip.added, strip.counted)
             for length in np.unique(lengths):
                 same = row[lengths == length]
-                blocks.append((np.array(_element(self.nodes[same[0]], prop)), len(same)))
-                quads.append(same)
+                result.append((*_element(self.nodes[same[0]], prop), same))
+        # Plates of one drawing at several stations have equal elements, too.
+        alike: dict[tuple, list[np.ndarray]] = {}
         for plate, corners in zip(self.plates, self._plate_quads, strict=True):
-            prop = self._property(plate.thickness)
-            for quad in corners:
-                blocks.append((np.array(_element(self.nodes[quad], prop)), 1))
-                quads.append(quad[None])
-        freedoms = (6 * np.concatenate(quads)[:, :, None] + np.arange(6)).reshape(-1, 24)
+            alike.setdefault((plate.thickness, plate.points.tobytes()), []).append(corners)
+        for (thickness, _), grids in alike.items():
+            prop = self._property(thickness)
+            for same in np.stack(grids, axis=1):
+                result.append((*_element(self.nodes[same[0]], prop), same))
+        return result
+
+    @cached_property
+    def _point_inertia(self) -> np.ndarray:
+        """Mass of the lines at every freedom, kg, shape (6 nodes,)."""
+        extra = np.zeros((len(self.nodes), 6))
+        for point, mass in self.line_masses.items():
+            extra[point : len(self.points) * len(self.stations) : len(self.points), :3] += mass * self.tributary[:, None]
+        return extra.ravel()
+
+    @cached_property
+    def matrices(self) -> tuple[csr_array, csr_array]:
+        """K and M over all freedoms (six a node), bearings not yet applied, sparse."""
+        freedoms = np.concatenate([_freedoms(quads) for *_, quads in self._elements])
         rows, columns = np.repeat(freedoms, 24, axis=1).ravel(), np.tile(freedoms, (1, 24)).ravel()
         size = 6 * len(self.nodes)
         result = []
         for which in (0, 1):
-            values = np.concatenate([np.tile(block[which].ravel(), count) for block, count in blocks])
+            values = np.concatenate([np.tile(e[which].ravel(), len(e[2])) for e in self._elements])
             result.append(csr_array((values, (rows, columns)), shape=(size, size)))
-        extra = np.zeros((len(self.nodes), 6))
-        for point, mass in self.line_masses.items():
-            extra[point : len(self.points) * len(self.stations) : len(self.points), :3] += mass * self._tributary[:, None]
-        diagonal = np.arange(size)
-        return result[0], result[1] + csr_array((extra.ravel(), (diagonal, diagonal)), shape=(size, size))
+        return result[0], result[1] + diags_array(self._point_inertia).tocsr()
 
     @cached_property
-    def _tributary(self) -> np.ndarray:
+    def tributary(self) -> np.ndarray:
         """Length along the deck that belongs to each station, m."""
         half = np.diff(self.stations) / 2
         return np.concatenate([[0.0], half]) + np.concatenate([half, [0.0]])
@@ -388,39 +404,41 @@ class Shell:
         return [((row @ flat).ravel(), stiffness) for row, stiffness in self._held]
 
     @cached_property
-    def _constrained(self) -> tuple[csc_array, csc_array, csr_array]:
-        """K and M over the freedoms that are left, and what turns those into all freedoms."""
-        k, m = self.matrices
-        size = k.shape[0]
-        for row, stiffness in self._held:
-            if np.isfinite(stiffness):
-                k = k + stiffness * (row.T @ row)
+    def _turn(self) -> tuple[csr_array, np.ndarray]:
+        """What turns the freedoms that rigid bearings leave into all freedoms, and which are left."""
+        size = 6 * len(self.nodes)
         rigid = [row for row, stiffness in self._held if np.isinf(stiffness)]
         if not rigid:
-            identity = csr_array((np.ones(size), (np.arange(size), np.arange(size))))
-            return csc_array(k), csc_array(m), identity
+            return eye_array(size, format="csr"), np.arange(size)
         rows = vstack(rigid).tocsr()
-        dense_columns = np.unique(rows.indices)
-        block = rows[:, dense_columns].toarray()
+        used = np.unique(rows.indices)
+        block = rows[:, used].toarray()
         # One freedom of each condition follows from the others: that with the largest weight not yet taken.
         gone: list[int] = []
         work = block.copy()
         for r in range(len(work)):
             pivot = int(np.argmax(np.abs(work[r])))
             gone.append(pivot)
-            for other in range(len(work)):
-                if other != r:
-                    work[other] -= work[other, pivot] / work[r, pivot] * work[r]
-        kept = np.setdiff1d(np.arange(len(dense_columns)), gone)
+            others = np.arange(len(work)) != r
+            work[others] -= np.outer(work[others, pivot] / work[r, pivot], work[r])
+        kept = np.setdiff1d(np.arange(len(used)), gone)
         follow = -np.linalg.solve(block[:, gone], block[:, kept])
-        left = np.setdiff1d(np.arange(size), dense_columns[gone])
-        place = np.searchsorted(left, dense_columns[kept])
-        turn_rows = np.concatenate([left, np.repeat(dense_columns[gone], len(kept))])
-        turn_columns = np.concatenate([np.arange(len(left)), np.tile(place, len(gone))])
-        turn = csr_array(
-            (np.concatenate([np.ones(len(left)), follow.ravel()]), (turn_rows, turn_columns)), shape=(size, len(left))
-        )
-        return csc_array(turn.T @ k @ turn), csc_array(turn.T @ m @ turn), turn
+        left = np.setdiff1d(np.arange(size), used[gone])
+        place = np.searchsorted(left, used[kept])
+        rows = np.concatenate([left, np.repeat(used[gone], len(kept))])
+        columns = np.concatenate([np.arange(len(left)), np.tile(place, len(gone))])
+        values = np.concatenate([np.ones(len(left)), follow.ravel()])
+        return csr_array((values, (rows, columns)), shape=(size, len(left))), left
+
+    @cached_property
+    def _reduced(self) -> tuple[csc_array, csc_array]:
+        """K and M with the bearings, over the freedoms that are left."""
+        k, m = self.matrices
+        for row, stiffness in self._held:
+            if np.isfinite(stiffness):
+                k = k + stiffness * (row.T @ row)
+        turn, _ = self._turn
+        return csc_array(turn.T @ k @ turn), csc_array(turn.T @ m @ turn)
 
     # ------------------------------------------------------------------ modes
 
@@ -432,7 +450,7 @@ class Shell:
         InputError
             More modes than a quarter of the freedoms.
         """
-        k, m, turn = self._constrained
+        k, m = self._reduced
         count = inputs.integer("modes", count, least=1, most=max(k.shape[0] // 4, 1))
         factor = splu(k, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
         inverse = LinearOperator(k.shape, factor.solve, dtype=float)
@@ -440,10 +458,31 @@ class Shell:
         start = np.random.default_rng(1).standard_normal(k.shape[0])
         squares, vectors = eigsh(k, count, m, sigma=0.0, OPinv=inverse, v0=start)
         order = np.argsort(squares)
-        full = (turn @ vectors[:, order]).reshape(len(self.nodes), 6, count)
+        full = (self._turn[0] @ vectors[:, order]).reshape(len(self.nodes), 6, count)
         large = np.abs(full[:, :3]).reshape(-1, count)
         sign = np.sign(full[:, :3].reshape(-1, count)[np.argmax(large > 0.5 * large.max(axis=0), axis=0), np.arange(count)])
         return self._described(np.sqrt(squares[order]) / (2 * np.pi), full * sign)
+
+    def quotients(self, vectors: np.ndarray) -> np.ndarray:
+        """Return Rayleigh's quotients of given shapes, as frequencies, Hz.
+
+        With the modes of a shell that differs little they are its frequencies but for the square of the difference, and cost
+        no solution: derivatives by dimensions follow from them.
+
+        Parameters
+        ----------
+        vectors : ndarray, shape (nodes, 6, m)
+            Of a shell with the same mesh and the same kind of bearings.
+        """
+        turn, left = self._turn
+        moved = turn @ vectors.reshape(-1, vectors.shape[-1])[left]
+        k = sum(stiffness * (row @ moved).ravel() ** 2 for row, stiffness in self._held if np.isfinite(stiffness))
+        m = self._point_inertia @ moved**2
+        for stiffness, mass, quads in self._elements:
+            corners = moved[_freedoms(quads)]
+            k = k + np.einsum("eim,eim->m", corners, np.einsum("ij,ejm->eim", stiffness, corners))
+            m = m + np.einsum("eim,eim->m", corners, np.einsum("ij,ejm->eim", mass, corners))
+        return np.sqrt(k / m) / (2 * np.pi)
 
     @cached_property
     def point_masses(self) -> np.ndarray:
@@ -468,7 +507,7 @@ class Shell:
         return self.point_masses @ self.points / self.point_masses.sum()
 
     @cached_property
-    def _inertias(self) -> np.ndarray:
+    def inertias(self) -> np.ndarray:
         """Inertia per metre of the section's rigid motions: x y z (kg/m), roll pitch yaw (kg m)."""
         y, z = (self.points - self.centre).T
         m = self.point_masses
@@ -499,7 +538,7 @@ class Shell:
         )  # (6, 3, points)
         weighted = rigid * self.point_masses
         gram = np.einsum("acp,bcp->ab", weighted, rigid)
-        return np.einsum("ab,bcp,spcm->sam", np.linalg.inv(gram), weighted, moved)
+        return np.einsum("ab,bcp,spcm->sam", np.linalg.pinv(gram), weighted, moved)
 
     def _sectionwise(self, vectors: np.ndarray) -> np.ndarray:
         """Displacements of the section's points, shape (stations, points, 3, m)."""
@@ -509,8 +548,8 @@ class Shell:
     def _described(self, frequencies: np.ndarray, vectors: np.ndarray) -> ShellModes:
         """Attach names, shares of energy and section motions to modes."""
         motions, moved = self.section_motions(vectors), self._sectionwise(vectors)
-        parts = np.einsum("s,a,sam->am", self._tributary, self._inertias, motions**2)
-        total = np.einsum("s,p,spcm->m", self._tributary, self.point_masses, moved**2)
+        parts = np.einsum("s,a,sam->am", self.tributary, self.inertias, motions**2)
+        total = np.einsum("s,p,spcm->m", self.tributary, self.point_masses, moved**2)
         x, y, z, roll, pitch, yaw = parts / total
         shares = {"vertical": z + pitch, "lateral": y + yaw, "torsion": roll, "axial": x}
         shares["local"] = np.clip(1.0 - sum(shares.values()), 0.0, None)
@@ -523,7 +562,7 @@ class Shell:
 
     def _liveliest(self, moved: np.ndarray) -> tuple[str, ...]:
         """Name the part of the section that moves most, by mean square displacement, in each mode."""
-        square = np.einsum("s,spcm->pm", self._tributary, moved**2)
+        square = np.einsum("s,spcm->pm", self.tributary, moved**2)
         names = list(dict.fromkeys(s.part for s in self.strips if s.counted))
         means = []
         for name in names:

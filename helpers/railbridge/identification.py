@@ -1,0 +1,446 @@
+r"""Which box could Figure 6 have shown? Dimensions whose shell comes closest to the printed frequencies.
+
+The only place of the suite where numbers are fitted. Figure 6 (section and properties) is missing; the deck's 15 natural
+frequencies are printed (Table 2), and Table 4 fixes the mass per metre within about 10 %. Seventeen numbers cannot fix
+fifteen unknowns that act alike, so the result is *one box that fits*, identified and not known; the singular values of the
+sensitivities say which combinations of dimensions the data fix and which they leave open.
+
+*Pairing.* By shape, not by order: five modes of the deck as a whole are found by how much of their kinetic energy is a
+sine of half waves (first vertical, lateral, torsion, second vertical) or a uniform motion along the deck (axial-bending),
+and carry the printed frequencies of `HYPOTHESES`. About the shapes of the other ten the paper says nothing; they are
+paired in ascending order.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from . import inputs
+from .box import Box, BoxMesh, Pads, shell_against_beam
+from .inputs import InputError
+from .paper import TABLE2_DECK
+from .shell import Shell, ShellModes, pairs
+
+__all__ = [
+    "COARSE", "FAMILIES", "HYPOTHESES", "MASS", "SINGLE", "UNKNOWNS", "Fit", "Unknown", "beam_frequencies", "bearing_study",
+    "box_of", "evaluate", "families", "identified", "identify", "search", "sensitivities", "stored", "table",
+]  # fmt: skip
+
+MASS = 12000.0
+"""Mass per metre that Table 4's self-weight asks for, kg/m, within about 10 %."""
+
+SINGLE = "viaduct36_identified"
+"""Name of the deck file that the identification writes."""
+
+FAMILIES = ("vertical 1", "lateral 1", "vertical 2", "torsion 1", "axial-bending 1")
+"""The modes of the deck as a whole that are recognised by their shapes."""
+
+HYPOTHESES = {
+    "as ordered": (0, 1, 2, 3, 4),
+    "lateral above second vertical": (0, 2, 1, 3, 4),
+    "torsion third, second vertical fourth": (0, 1, 3, 2, 4),
+}
+"""Place in Table 2 of each of `FAMILIES`, from 0."""
+
+COARSE = BoxMesh(24, 3, 6, 3)
+"""Mesh of the search; its frequencies are 0.5 to 2 % above the limit. The default mesh polishes."""
+
+_EXTRA = 5  # modes beyond the printed ones, so that one that moves down is seen
+_MASS_WEIGHT = 0.5  # one per cent of mass counts as half a per cent of frequency
+_TAIL_WEIGHT = 0.5  # of the printed modes 11 to 15, which depend most on mesh and detail
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """A dimension to be found, within bounds that an engineer would accept.
+
+    Attributes
+    ----------
+    name : str
+        Of `Box`; or ``bottom share`` (web spacing at the bottom over that at the slab), ``log10 stiffness`` (of each of the
+        two pads that hold lengthwise, N/m) or ``drop`` of all pads.
+    low, high : float
+    unit : str
+    why : str
+        Reason of the bounds.
+    """
+
+    name: str
+    low: float
+    high: float
+    unit: str
+    why: str
+
+
+UNKNOWNS = (
+    Unknown("slab_width", 8.6, 11.0, "m", "two tracks 2.4 m off the axis with clearance; walkways"),
+    Unknown("slab_thickness", 0.18, 0.40, "m", "railway slabs: at least about 0.2"),
+    Unknown("root_thickness", 0.20, 0.50, "m", "cantilever at the web"),
+    Unknown("edge_thickness", 0.15, 0.30, "m", "least cover and steel at the edge"),
+    Unknown("depth", 1.6, 2.6, "m", "span / 22 to span / 14"),
+    Unknown("web_thickness", 0.20, 0.60, "m", "room for tendons; the box alone carries shear"),
+    Unknown("web_spacing", 4.0, 6.2, "m", "webs under the tracks"),
+    Unknown("bottom share", 0.65, 1.0, "-", "webs upright or leaning, never farther apart at the bottom"),
+    Unknown("bottom_thickness", 0.12, 0.40, "m", "usual bottom plates"),
+    Unknown("diaphragm_thickness", 0.15, 1.0, "m", "plate or solid end block"),
+    Unknown("youngs_modulus", 25e9, 38e9, "Pa", "concretes of the time, static to dynamic modulus"),
+    Unknown("track_mass", 0.0, 3000.0, "kg/m", "none to slab tracks; between the webs"),
+    Unknown("edge_mass", 0.0, 1500.0, "kg/m", "none to parapets; both edges together"),
+    Unknown("log10 stiffness", 8.5, 11.0, "N/m", "of each lengthwise fixed pad: elastomer to nearly rigid"),
+    Unknown("drop", 0.0, 0.4, "m", "of the bearing's point of rotation below the box"),
+)
+
+
+def box_of(values: dict[str, float], inner_diaphragms: int = 0, name: str = SINGLE) -> Box:
+    """Return the box of given unknowns: one span of 36 m, held lengthwise by springs at x = 0, density 2500, nu 0.2."""
+    dimensions = dict(values)
+    spring, drop = float(10 ** dimensions.pop("log10 stiffness")), dimensions.pop("drop")
+    dimensions["bottom_spacing"] = dimensions.pop("bottom share") * dimensions["web_spacing"]
+    held = Pads(0.0, ("y", "z"), {"x": spring}, drop=drop), Pads(36.0, ("y", "z"), drop=drop)
+    tracks = {"left": 2.4, "right": -2.4}
+    return Box(name, (36.0,), **dimensions, inner_diaphragms=inner_diaphragms, bearings=held, tracks=tracks)
+
+
+def families(shell: Shell, modes: ShellModes, length: float) -> dict[str, int]:
+    """Find the modes of `FAMILIES` by their shapes.
+
+    Returns
+    -------
+    dict
+        Number of the mode, from 0, by family: the best assignment of modes to shapes, each shape measured by the share of
+        kinetic energy it takes up.
+    """
+    x, weight = shell.stations, shell.tributary
+    waves = {1: np.sin(np.pi * x / length), 2: np.sin(2 * np.pi * x / length), 0: np.ones_like(x)}
+    rows = []
+    for component, wave in ((2, 1), (1, 1), (2, 2), (3, 1), (0, 0)):
+        shape, inertia = waves[wave], shell.inertias[component]
+        part = (weight * shape) @ modes.motions[:, component]
+        rows.append(inertia * part**2 / ((weight * shape) @ shape))
+    found = pairs(np.array(rows), least=0.0)
+    return {FAMILIES[row]: mode for row, mode in found.items()}
+
+
+def _paired(shell: Shell, modes: ShellModes, length: float, hypothesis: str) -> np.ndarray:
+    """Return which mode belongs to each printed frequency, shape (15,)."""
+    found = families(shell, modes, length)
+    result = np.full(len(TABLE2_DECK), -1)
+    for family, place in zip(FAMILIES, HYPOTHESES[hypothesis], strict=True):
+        result[place] = found[family]
+    rest = [m for m in range(len(modes.names)) if m not in result]
+    result[result < 0] = rest[: int(np.sum(result < 0))]
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """One box and how it compares.
+
+    Attributes
+    ----------
+    values : dict of float
+        By name of the unknown, in SI.
+    inner_diaphragms : int
+    hypothesis : str
+    frequencies_hz : ndarray, shape (15,)
+        Of the shell, in the order of the printed ones they are paired with.
+    names : tuple of str
+        What those modes are.
+    mass : float
+        kg/m.
+    """
+
+    values: dict[str, float]
+    inner_diaphragms: int
+    hypothesis: str
+    frequencies_hz: np.ndarray
+    names: tuple[str, ...]
+    mass: float
+
+    @property
+    def differences(self) -> np.ndarray:
+        """Percent of the printed frequency, shape (15,)."""
+        return 100 * (self.frequencies_hz / np.array(TABLE2_DECK) - 1)
+
+    def rms(self, count: int = 10) -> float:
+        """Root mean square of the first differences, percent."""
+        return float(np.sqrt(np.mean(self.differences[:count] ** 2)))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what is stored, plain numbers and texts."""
+        return {
+            "values": self.values,
+            "inner_diaphragms": self.inner_diaphragms,
+            "hypothesis": self.hypothesis,
+            "frequencies_hz": [round(float(f), 4) for f in self.frequencies_hz],
+            "names": list(self.names),
+            "mass": round(self.mass, 1),
+            "rms_first_ten_percent": round(self.rms(), 3),
+            "rms_all_percent": round(self.rms(len(TABLE2_DECK)), 3),
+        }
+
+
+class _Problem:
+    """Residuals and their derivatives over unknowns scaled to 0..1; one shell solution each point."""
+
+    def __init__(self, inner_diaphragms: int, hypothesis: str, mesh: BoxMesh) -> None:
+        self.inner, self.hypothesis, self.mesh = inner_diaphragms, inputs.choice("hypothesis", hypothesis, HYPOTHESES), mesh
+        self.low = np.array([u.low for u in UNKNOWNS])
+        self.span = np.array([u.high for u in UNKNOWNS]) - self.low
+        self.weights = np.where(np.arange(len(TABLE2_DECK)) < 10, 1.0, _TAIL_WEIGHT)
+        self._solved: tuple[bytes, Any] | None = None
+
+    def values(self, u: np.ndarray) -> dict[str, float]:
+        return dict(zip([x.name for x in UNKNOWNS], (self.low + self.span * u).tolist(), strict=True))
+
+    def box(self, u: np.ndarray) -> Box:
+        return box_of(self.values(u), self.inner)
+
+    def solution(self, u: np.ndarray) -> tuple[Box, ShellModes, np.ndarray]:
+        key = np.asarray(u).tobytes()
+        if self._solved is None or self._solved[0] != key:
+            box = self.box(u)
+            shell = box.shell(self.mesh)
+            modes = shell.modes(len(TABLE2_DECK) + _EXTRA)
+            self._solved = key, (box, modes, _paired(shell, modes, box.length, self.hypothesis))
+        return self._solved[1]
+
+    def _residuals(self, frequencies: np.ndarray, mass: float) -> np.ndarray:
+        return 100 * np.append(self.weights * np.log(frequencies / np.array(TABLE2_DECK)), _MASS_WEIGHT * np.log(mass / MASS))
+
+    def residuals(self, u: np.ndarray) -> np.ndarray:
+        box, modes, which = self.solution(u)
+        return self._residuals(modes.frequencies_hz[which], box.mass_per_metre)
+
+    def jacobian(self, u: np.ndarray) -> np.ndarray:
+        """Differences of Rayleigh's quotients of the modes at u: no further solutions."""
+        box, modes, which = self.solution(u)
+        base = self._residuals(modes.frequencies_hz[which], box.mass_per_metre)
+        result = np.empty((len(base), len(u)))
+        for j in range(len(u)):
+            step = np.array(u, dtype=float)
+            step[j] += 1e-4 if u[j] < 0.5 else -1e-4
+            moved = self.box(step)
+            frequencies = moved.shell(self.mesh).quotients(modes.vectors[:, :, which])
+            result[:, j] = (self._residuals(frequencies, moved.mass_per_metre) - base) / (step[j] - u[j])
+        return result
+
+    def fit(self, u: np.ndarray) -> Fit:
+        box, modes, which = self.solution(u)
+        names = tuple(modes.names[i] for i in which)
+        return Fit(self.values(u), self.inner, self.hypothesis, modes.frequencies_hz[which], names, box.mass_per_metre)
+
+
+def search(
+    start: np.ndarray,
+    inner_diaphragms: int = 0,
+    hypothesis: str = "as ordered",
+    mesh: BoxMesh = COARSE,
+    steps: int = 20,
+    progress: Callable[[str], None] = lambda line: None,
+) -> tuple[Fit, np.ndarray]:
+    """Improve one start by bounded least squares.
+
+    Parameters
+    ----------
+    start : ndarray
+        Unknowns scaled to 0..1 between their bounds.
+    inner_diaphragms, hypothesis, mesh, steps
+        What is held, and the most steps.
+    progress : callable
+        Told a line now and then.
+
+    Returns
+    -------
+    Fit, ndarray
+        The best box and its scaled unknowns.
+    """
+    start = inputs.numbers("identification: start", start, count=len(UNKNOWNS), least=0.0, most=1.0)
+    problem = _Problem(inputs.integer("identification: inner_diaphragms", inner_diaphragms, least=0, most=20), hypothesis, mesh)
+    result = least_squares(
+        problem.residuals,
+        np.clip(start, 1e-3, 1 - 1e-3),
+        problem.jacobian,
+        bounds=(0.0, 1.0),
+        max_nfev=steps,
+        ftol=1e-4,
+        xtol=1e-4,
+    )
+    fit = problem.fit(result.x)
+    progress(f"{result.nfev} steps: {fit.rms():.2f} % over the first ten, {fit.rms(15):.2f} % over all, {fit.mass / 1e3:.2f} t/m")
+    return fit, result.x
+
+
+def sensitivities(u: np.ndarray, inner_diaphragms: int = 0, mesh: BoxMesh = COARSE) -> tuple[np.ndarray, np.ndarray]:
+    """Return singular values and directions of the residuals' derivatives by the scaled unknowns.
+
+    A singular value is by how many per cent (weighted, root of the sum of squares) frequencies and mass move when the
+    unknowns move through their whole range in that direction; below about 1 the data say nothing.
+
+    Returns
+    -------
+    ndarray, shape (n,), and ndarray, shape (n, n)
+        Descending; row i is the direction of value i.
+    """
+    problem = _Problem(inner_diaphragms, "as ordered", mesh)
+    _, values, directions = np.linalg.svd(problem.jacobian(u), full_matrices=True)
+    return np.concatenate([values, np.zeros(len(u) - len(values))])[: len(u)], directions
+
+
+def identify(
+    starts: int = 3, seed: int = 1, inner: Iterable[int] = (0, 2), progress: Callable[[str], None] = lambda line: None
+) -> dict[str, Any]:
+    """Search from several starts on the coarse mesh, polish the best on the default one, test other hypotheses.
+
+    Parameters
+    ----------
+    starts : int
+        For each number of inner diaphragms.
+    seed : int
+        Of the random starts.
+    inner : iterable of int
+        Numbers of inner diaphragms to try.
+    progress : callable
+        Told a line for each search.
+
+    Returns
+    -------
+    dict
+        What `stored` reads back: best box, all starts, their spread, singular values and directions, alternatives.
+    """
+    rng = np.random.default_rng(seed)
+    found = []
+    for count in inner:
+        for i in range(inputs.integer("identification: starts", starts, least=1, most=100)):
+            fit, u = search(
+                rng.uniform(0.2, 0.8, len(UNKNOWNS)),
+                count,
+                progress=_labelled(progress, f"{count} inner diaphragms, start {i + 1}"),
+            )
+            found.append((fit, u))
+    coarse, u = min(found, key=lambda pair: _cost(pair[0]))
+    inner_best = coarse.inner_diaphragms
+    alternatives = []
+    for name in list(HYPOTHESES)[1:]:
+        fit, _ = search(u, inner_best, name, steps=12, progress=_labelled(progress, name))
+        alternatives.append(fit.to_dict())
+    best, u = search(u, inner_best, mesh=BoxMesh(), steps=8, progress=_labelled(progress, "polished"))
+    # What is stored is what is drawn: dimensions of four digits.
+    best = evaluate({k: float(f"{v:.4g}") for k, v in best.values.items()}, inner_best)
+    values, directions = sensitivities(u, inner_best)
+    return {
+        "label": "identified, not known",
+        "source": "Amaral & Mazzilli 2016, Tables 2 and 4",
+        "unknowns": {x.name: {"low": x.low, "high": x.high, "unit": x.unit, "why": x.why} for x in UNKNOWNS},
+        "best": best.to_dict(),
+        "coarse": [fit.to_dict() for fit, _ in found],
+        "alternatives": alternatives,
+        "singular_values": [round(float(v), 4) for v in values],
+        "directions": [{x.name: round(float(c), 3) for x, c in zip(UNKNOWNS, row, strict=True)} for row in directions],
+    }
+
+
+def _cost(fit: Fit) -> float:
+    return fit.rms(10) + max(0.0, 100 * abs(fit.mass / MASS - 1) - 10)
+
+
+def _labelled(progress: Callable[[str], None], label: str) -> Callable[[str], None]:
+    return lambda line: progress(f"{label}: {line}")
+
+
+def stored() -> dict[str, Any]:
+    """Return the stored identification.
+
+    Raises
+    ------
+    InputError
+        None stored, or not readable.
+    """
+    path = inputs.data_root() / "identification" / f"{SINGLE}.json"
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError("identification", path.name, f"cannot be read ({type(error).__name__})", "Run: make identify") from None
+
+
+def evaluate(
+    values: dict[str, float], inner_diaphragms: int = 0, hypothesis: str = "as ordered", mesh: BoxMesh | None = None
+) -> Fit:
+    """Solve the shell of given unknowns once and compare it with Table 2."""
+    problem = _Problem(inner_diaphragms, hypothesis, mesh or BoxMesh())
+    u = (np.array([values[x.name] for x in UNKNOWNS]) - problem.low) / problem.span
+    return replace(problem.fit(u), values=dict(values))
+
+
+def identified(mesh: BoxMesh | None = None) -> Fit:
+    """Solve the stored box again, once, and compare it with Table 2."""
+    best = stored()["best"]
+    return evaluate(best["values"], best["inner_diaphragms"], best["hypothesis"], mesh)
+
+
+def beam_frequencies(box: Box, mesh: BoxMesh = COARSE) -> dict[str, tuple[float, float]]:
+    """Return frequency (Hz) and likeness (0 to 1) of the beam's mode that belongs to each of `FAMILIES` of the shell."""
+    shell, beam = box.shell(mesh), box.beam()
+    modes = shell.modes(len(TABLE2_DECK) + _EXTRA)
+    found = families(shell, modes, box.length)
+    criterion = shell_against_beam(shell, modes, beam, shell.centre[1] - box.section.shear_centre[1])
+    like = pairs(criterion[list(found.values())], least=0.0)
+    return {
+        family: (float(beam.modes.frequencies_hz[like[row]]), float(criterion[mode, like[row]]))
+        for row, (family, mode) in enumerate(found.items())
+    }
+
+
+def table(fit: Fit, beam: dict[str, tuple[float, float]] | None = None):
+    """Return a pandas DataFrame: printed, shell, difference and, where it has such a mode, the beam of the same box.
+
+    Parameters
+    ----------
+    fit : Fit
+    beam : dict, optional
+        From `beam_frequencies`.
+    """
+    import pandas as pd
+
+    columns: dict[str, Any] = {"printed (Hz)": TABLE2_DECK, "shell (Hz)": fit.frequencies_hz, "difference (%)": fit.differences}
+    columns["mode of the shell"] = fit.names
+    if beam is not None:
+        places = HYPOTHESES[fit.hypothesis]
+        for i, name in enumerate(("beam (Hz)", "likeness of shell and beam")):
+            by_place = {places[FAMILIES.index(k)]: value[i] for k, value in beam.items()}
+            columns[name] = [by_place.get(p, np.nan) for p in range(len(TABLE2_DECK))]
+    return pd.DataFrame(columns, index=pd.RangeIndex(1, len(TABLE2_DECK) + 1, name="mode"))
+
+
+def bearing_study(box: Box, mesh: BoxMesh = COARSE) -> dict[str, dict[str, float]]:
+    """Test what makes a vertical mode at 4.9 times the first: the shell with other lengthwise bearings at x = 0.
+
+    Returns
+    -------
+    dict
+        For each kind of bearing, the frequencies (Hz) of `FAMILIES`.
+    """
+    first = box.bearings[0]
+    kinds = {
+        "as identified": first,
+        "rigid": replace(first, fixed=("x", "y", "z"), stiffness={}),
+        "soft (1 MN/m)": replace(first, stiffness={"x": 1e6}),
+        "under one web only": None,
+    }
+    result = {}
+    for kind, pads in kinds.items():
+        if pads is None:
+            other = replace(first, stiffness={}, under="right")
+            changed = replace(box, bearings=(replace(first, under="left"), other, *box.bearings[1:]))
+        else:
+            changed = replace(box, bearings=(pads, *box.bearings[1:]))
+        shell = changed.shell(mesh)
+        modes = shell.modes(len(TABLE2_DECK) + _EXTRA)
+        result[kind] = {k: float(modes.frequencies_hz[i]) for k, i in families(shell, modes, box.length).items()}
+    return result
