@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 
 import railbridge as rb
 from railbridge.deck import PiecewiseCubic
+from railbridge.interaction import prepare
+from railbridge.settings import check
 
 L, M, EI = 36.0, 12e3, 8.93e10
 
@@ -177,3 +179,81 @@ def test_a_deck_is_made_once_so_its_numbers_cannot_be_changed():
     with pytest.raises(ValueError, match="read-only"):
         deck.frequencies_hz[0] = 1.0
     assert deck == rb.case("paper").deck and deck != rb.deck("viaduct36")  # the same one, or another; never an error
+
+
+# ---- rails above the deck axis
+
+
+def high(height, modes=14):
+    """The shipped deck's beam with its rails at a height."""
+    return rb.Beam("b", (L,), M, EI, 8.9e11, 8.15e10, polar_inertia=7.02e4).deck(modes, 0.02, track_height=height)
+
+
+@pytest.mark.parametrize("loads", ["wheels", "bogies", "condensed"])
+def test_the_rail_s_motion_and_the_loads_do_the_same_work(loads):
+    """Power balance: what wheels do on the rail's motion is what modal forces do on the modes, whatever the height.
+
+    On the rail, v - h theta and w + y theta, from the shapes themselves; condensed loads do it on the motion at their own point.
+    """
+    rng = np.random.default_rng(4)
+    train, deck, offset, speed = rb.Train(rb.vehicle("xia2000")), high(1.7), 2.4, 25.0
+    s = check(train, deck, rb.Track(), speed=speed, time_step=2e-3, track_offset=offset, loads=loads)
+    coupling = prepare(train, deck, rb.Track(), s)
+    window = coupling.windows[0]
+    delta = [rng.normal(size=d.shape) * 1e4 for d in coupling.at_rest()]
+    state = coupling.deck_state(coupling.station_loads(delta))
+    forces = delta[0] + coupling.rigid[0][:, window] + coupling.static[0][:, None]
+    k = 700
+    q = rng.normal(size=len(deck.frequencies_hz))
+    power, contacts = 0.0, train.vehicles[0].contacts
+    middle = speed * coupling.time[k] - train.centres[0]
+    groups = {"wheels": lambda c: c.x, "condensed": lambda c: 0.0}
+    groups["bogies"] = lambda c: np.mean([other.x for other in contacts if other.body == c.body])
+    for i, contact in enumerate(contacts):
+        point = groups[loads](contact)
+        arm = contact.x - point
+        v, w, theta = q @ deck.shapes(np.array([middle + point]))[0]
+        slope_v, slope_w, _ = q @ deck.shapes(np.array([middle + point]), 1)[0]
+        lateral, vertical = forces[2 * i : 2 * i + 2, k - window.start]
+        power += lateral * (v - 1.7 * theta + arm * slope_v)
+        power += vertical * (w + (offset + contact.y) * theta + arm * slope_w)
+    assert q @ state.modal_force[:, k] == pytest.approx(power, rel=1e-9)
+
+
+def test_wheels_feel_the_rail_and_not_the_axis():
+    """Springs of Table 1 on v - h theta, with its total derivative, by hand."""
+    rng = np.random.default_rng(5)
+    train, deck, height, speed = rb.Train(rb.vehicle("xia2000")), high(1.7), 1.7, 25.0
+    s = check(train, deck, rb.Track(), speed=speed, time_step=2e-3)
+    coupling = prepare(train, deck, rb.Track(), s)
+    state = coupling.deck_state(coupling.station_loads(coupling.at_rest()))
+    q, velocity = (rng.normal(size=state.q.shape) for _ in range(2))
+    u = coupling.support_input(type(state)(q, velocity, state.modal_force), [0])[:, 0]
+    k, start = 701, coupling.windows[0].start
+    place = np.array([speed * coupling.time[k] - train.wheels[0].delay])
+    met, slope = deck.shapes(place)[0].T, deck.shapes(place, 1)[0].T
+    moved, rate = met @ q[:, k], met @ velocity[:, k] + speed * slope @ q[:, k]
+    expected = 20e6 * (moved[0] - height * moved[2]) + 15e3 * (rate[0] - height * rate[2])
+    assert u[0, k - start] == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_lateral_force_on_high_rails_twists_the_deck_by_the_lever():
+    """The torque is the car's rolling less h F_y; iterated and direct solutions agree on the twist."""
+    train = rb.Train(rb.vehicle("xia2000"))
+    track = rb.Track(lateral=rb.Harmonic(3e-3, wavelength=20.0))
+    common = {"speed": 30.0, "time_step": 1e-3, "lead_in": 60.0, "tail": 0.2}
+    with pytest.warns(UserWarning, match="transient"):
+        iterated = rb.cross(train, high(1.7), track, tolerance=1e-10, **common)
+        direct = rb.cross(train, high(1.7), track, interaction="direct", **common)
+        level = rb.cross(train, high(0.0), track, tolerance=1e-10, **common)
+    twist = iterated.displacement(L / 2)["rotation_x"]
+    assert direct.displacement(L / 2)["rotation_x"] == pytest.approx(twist, abs=1e-7 * np.abs(twist).max())
+    # On the axis only the car's rolling twists the deck; on high rails the lateral forces add -h F_y.
+    moment, without = iterated.reactions(), level.reactions()
+    forces = iterated.wheel_forces[:, 0]
+    on = (iterated.time > 0.8) & (iterated.time < 1.0)  # the whole car stands on the deck
+    torque = sum(h["moment_x"] for h in moment.values())[on]
+    roll = sum(f * w.y for f, w in zip(iterated.wheel_forces[:, 1], train.wheels, strict=True))[on]
+    quasi = -(roll - 1.7 * forces.sum(axis=0)[on])
+    assert np.abs(torque - quasi).max() < 0.1 * np.abs(quasi).max()  # less the deck's own inertia
+    assert np.abs(torque).max() > 1.3 * np.abs(sum(h["moment_x"] for h in without.values())[on]).max()
