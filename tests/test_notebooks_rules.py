@@ -35,11 +35,13 @@ class Page:
     needs: tuple = ("You need", "Time", "Equations")
 
 
-# The pages that are no lessons of the usual kind: the door, the comparison, and the long check at the end.
+# The pages that are no lessons of the usual kind: the door, the comparison, the long check, and the one with two programs.
 PAGES = {
     "00": Page((GOALS, EXPLORE, FOUND, REFERENCES), (200, 1200), (5, 80), (), ("You need", "Time")),
     "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3000), (20, 200), (), ("You need", "Time")),
     "09": Page((GOALS, SYMBOLS, CHECK, EXERCISES, FOUND, REFERENCES), (500, 3000), (20, 270)),
+    # The other program that the page needs is written out on it.
+    "12": Page(code_lines=(40, 170)),
 }
 COURSE = ("00", "01", "02", "03", "04", "05", "06", "08")
 CELL_LINES = 15

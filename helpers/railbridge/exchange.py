@@ -449,13 +449,18 @@ def _motion(functions: PiecewiseCubic) -> np.ndarray:
 
 
 def _warn_of_overlap(model: ModalModel, motion: np.ndarray, kept: np.ndarray) -> None:
-    """Warn of modes that look alike along the rail, as over a uniform deck: without masses nobody can say more."""
-    flat = motion[kept].reshape(len(kept), -1)
+    """Warn of modes that look alike along the rail, as over a uniform deck: without masses nobody can say more.
+
+    Only modes that hardly twist are compared: at a rail off the shear centre, twist looks like bending.
+    """
+    size = np.sum(motion[kept] ** 2, axis=-1)
+    bending = kept[size[:, 2] < 0.1 * size.sum(axis=1)]
+    flat = motion[bending].reshape(len(bending), -1)
     flat = flat / np.linalg.norm(flat, axis=1, keepdims=True)
     overlap = np.abs(np.triu(flat @ flat.T, 1))
-    i, j = np.unravel_index(np.argmax(overlap), overlap.shape)
-    if overlap[i, j] > 0.3:
-        pair = f"modes {model.labels[kept[i]]} and {model.labels[kept[j]]}"
+    if overlap.max(initial=0.0) > 0.3:
+        i, j = np.unravel_index(np.argmax(overlap), overlap.shape)
+        pair = f"modes {model.labels[bending[i]]} and {model.labels[bending[j]]}"
         warnings.warn(
             f"modes: {pair} overlap by {overlap[i, j]:.2f} along the rail of a uniform deck. Give the nodal masses to have "
             "their orthogonality checked.",
