@@ -263,7 +263,7 @@ def overview(case: Case | None = None) -> Panel:
         plots.deviations(last, axes["deviations"])
 
     def say(case, stages, values):
-        return _said(stages, case, values, plain=True)
+        return _said(stages, case, values, plain=True).removesuffix(".") + f"; forcing {_forcing(values):.3f} Hz."
 
     axes = [["train"] * 6, ["forces"] * 2 + ["moments"] * 2 + ["displacement"] * 2, ["spectrum"] * 3 + ["deviations"] * 3]
     place = Control("place", "first axle (m)", (), 0, reach, 1, start=min(100, reach), plays=True)

@@ -109,6 +109,7 @@ def present(control: Control, case: Case) -> Control:
 
 
 def read(case: Case, control: Control) -> Any:
+    """Return a control's first value."""
     return control.start if control.start is not None else _get(case, control.paths[0])
 
 
@@ -118,6 +119,7 @@ def _get(case: Case, path: str) -> Any:
 
 
 def put(changes: dict[str, Any], case: Case, path: str, value: Any) -> None:
+    """Add a value to changes of a case; a number as last part of the path counts in a list of the case's."""
     """Add a value to changes of a case; a number as last part of the path counts in a list of the case's."""
     parent, _, last = path.rpartition(".")
     if last.isdigit():

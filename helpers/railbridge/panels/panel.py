@@ -226,7 +226,7 @@ class Panel:
         return (rough, *(values[n] for n, c in self.controls.items() if c.paths))
 
     def _solve(self, values: Mapping[str, Any], rough: bool = False, progress: Go | None = None) -> tuple[Case, Any]:
-        """Return the case of some values and its result, from those kept if it is there."""
+        """Return the case of some values and its result (that of a coarser one if rough), from those kept if it is there."""
         key = self._key(values, rough)
         if key not in self._results:
             changes: dict[str, Any] = {}
@@ -259,11 +259,11 @@ class Panel:
             return
         self.case, self.summary, self.error = case, summary, None
         self.image.value = self._picture.png()
-        step = 1e3 * case.settings.time_step
         said = f"<span{'' if rough else ' role=status'}>{escape(summary)}</span>"
         if self._rough:
-            quick = 1e3 * _coarser(case).settings.time_step
-            said += f" <i>Moving: time step {quick:.1f} ms, {step:.1f} ms follows.</i>" if rough else f" Time step {step:.1f} ms."
+            exact = f"{1e3 * case.settings.time_step:.2g} ms"
+            quick = f"{1e3 * ROUGH_STEP:.2g} ms"
+            said += f" <i>Moving: time step up to {quick}; {exact} follows.</i>" if rough else f" Time step {exact}."
         self.words.value = said
         self.trouble.value = ""
         self._tell_asides(values)

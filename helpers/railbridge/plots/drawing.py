@@ -165,10 +165,12 @@ def shade(ax: Axes, name: str, start: float, stop: float, label: str | None = No
 
 
 def mark(ax: Axes, marks: Mapping[str, float] | None, unit: str = "Hz") -> None:
-    """Draw a vertical line at each place, with its name and value in the legend."""
+    """Draw a vertical line at each place, with its name and value in the legend; without the value in a live axes."""
     for i, (name, x) in enumerate((marks or {}).items()):
         options = {"color": "k", "lw": 1.2, "ls": (":", "--", "-.")[i % 3], "transform": ax.get_xaxis_transform()}
-        curve(ax, f"mark {name}", [x, x], [0.0, 1.0], label=f"{name} {x:.4g} {unit}", zorder=1.5, **options)
+        # A text that changes has to be drawn each time; a panel says the value below its picture.
+        label = name if is_live(ax) else f"{name} {x:.4g} {unit}"
+        curve(ax, f"mark {name}", [x, x], [0.0, 1.0], label=label, zorder=1.5, **options)
 
 
 def note(ax: Axes, name: str, text: str, x: float, y: float, data_x: bool = False, **options) -> None:

@@ -1,0 +1,150 @@
+"""Time from a key press on a slider to the new picture, in a real JupyterLab and a real Chromium.
+
+    python benchmarks/latency.py [PRESSES]
+
+Panels of the suite beside the plain way: `ipywidgets.interact` around the same crossing and the same figure. A press counts
+until the new picture is decoded and the browser paints its next frame. Pressed twice over: as soon as the last picture is
+there (a key held down), and after the panel has rested (then the exact crossing has been computed in between).
+
+Milliseconds belong to the machine and to what else it does: the last column is the ratio to the plain way, in the same run.
+"""
+
+import os
+import secrets
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+os.environ["OMP_NUM_THREADS"] = "1"  # the matrices are small; before NumPy is loaded
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "browser"))
+
+import nbformat
+import numpy as np
+from chromium import NoBrowser, running
+from labpage import NotebookOnPage
+from served import jupyterlab
+
+import railbridge as rb
+from railbridge.plots.drawing import hold
+
+PLAIN = """
+import ipywidgets, matplotlib.pyplot as plt
+import railbridge as rb
+
+def show(speed):
+    run = rb.case("paper").replace({"run.iterations": 4, "run.time_step": None, "train.cars": CARS, "run.speed": speed}).run()
+    figure, axes = plt.subplots(2, 3, figsize=(11.0, 5.6), layout="constrained")
+    rb.plots.train_on_deck(run.train, run.deck, axes[0, 0])
+    rb.plots.car_forces(run, components=("force_z", "moment_y"), axes=axes[0, 1:])
+    rb.plots.displacement(run, 18.0, ax=axes[1, 0])
+    rb.plots.spectrum(run, ax=axes[1, 1])
+    rb.plots.deviations(run, ax=axes[1, 2])
+    plt.show()
+
+ipywidgets.interact(show, speed=ipywidgets.FloatSlider(20.0, min=5.0, max=80.0, step=0.5));
+"""
+OURS = 'import railbridge as rb\nrb.panels.PANEL(rb.case("paper").replace({"run.time_step": None, "train.cars": CARS}))'
+CASES = {
+    "plain way, eight cars": (PLAIN, 8),
+    "plain way, one car": (PLAIN, 1),
+    "explorer (00), eight cars, four iterations": (OURS.replace("PANEL", "overview"), 8),
+    "explorer (00), one car, four iterations": (OURS.replace("PANEL", "overview"), 1),
+    "fixed point (06), eight cars, four iterations": (OURS.replace("PANEL", "fixed_point"), 8),
+    "fixed point (06), one car, four iterations": (OURS.replace("PANEL", "fixed_point"), 1),
+    "deck response (05), eight cars, rigid": (OURS.replace("PANEL", "deck_response"), 8),
+    "rigid forces (03), one car": (OURS.replace("PANEL", "rigid_forces"), 1),
+}
+REST = 0.3  # s; longer, and a panel computes the exact crossing
+# Pictures that come without a press (the exact one after a rest) are not counted.
+WATCH = """root => {
+    window.rbTimes = [];
+    let pressed = null, last = root.querySelector('img').src;
+    document.addEventListener('keydown', () => { pressed = performance.now(); }, true);
+    new MutationObserver(() => {
+        const image = root.querySelector('img');
+        if (pressed === null || image === null || image.src === last) return;
+        const start = pressed;
+        [pressed, last] = [null, image.src];
+        image.decode().catch(() => null).then(
+            () => requestAnimationFrame(() => window.rbTimes.push(performance.now() - start)));
+    }).observe(root, {subtree: true, childList: true, attributes: true, attributeFilter: ['src']});
+}"""
+
+
+def notebook(folder, name, code):
+    """Store a notebook of one cell."""
+    folder.mkdir(exist_ok=True)
+    nbformat.write(nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(code)]), folder / f"{name}.ipynb")
+
+
+def measured(page, presses, rest):
+    """Times of key presses on the first slider of the page, ms: `rest` seconds between a picture and the next press."""
+    root = page.locator(".jp-OutputArea").first
+    root.locator("img").first.wait_for()
+    root.first.evaluate(WATCH)
+    slider = root.get_by_role("slider").first
+    slider.focus()
+    for count in range(1, presses + 1):
+        # Up and down again, from 20 m/s.
+        page.keyboard.press("ArrowRight" if count <= presses // 2 else "ArrowLeft")
+        page.wait_for_function("count => window.rbTimes.length >= count", arg=count, polling=10)
+        if rest > REST:  # the exact picture has come
+            page.wait_for_function("() => !document.querySelector('.rb-summary').innerText.includes('Moving')")
+        time.sleep(rest)
+    return np.array(page.evaluate("() => window.rbTimes"))
+
+
+def budget(panel, cars):
+    """Processor time of the parts of one answer in the kernel, ms: crossing, moving the curves and the words, picture."""
+    panel = getattr(rb.panels, panel)(rb.case("paper").replace({"run.time_step": None, "train.cars": cars}))
+    times = []
+    for speed in 20.25 + 0.5 * np.arange(15):
+        values, clock = panel.values | {"speed": float(speed)}, [time.process_time()]
+        case, result = panel._solve(values, rough=True)
+        hold(panel.figure, True)
+        clock.append(time.process_time())
+        panel._draw(panel._axes, case, result, values)
+        panel._say(case, result, values)
+        clock.append(time.process_time())
+        panel._picture.png()
+        clock.append(time.process_time())
+        times.append(np.diff(clock))
+    return 1e3 * np.median(times, axis=0)
+
+
+def load():
+    return f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores" if hasattr(os, "getloadavg") else ""
+
+
+def main(presses=40):
+    print("processor time in the kernel, median, ms       crossing   curves and words   picture")
+    for panel, cars in (("overview", 8), ("overview", 1), ("fixed_point", 8), ("fixed_point", 1)):
+        parts = budget(panel, cars)
+        print(f"  {panel:12} {cars} car{'s' if cars > 1 else ' '} {parts[0]:33.1f} {parts[1]:18.1f} {parts[2]:9.1f}")
+    print(f"\nkey press to new picture, ms ({presses} presses each)           median    p90   median / plain way")
+    plain = {}
+    with tempfile.TemporaryDirectory() as folder, running() as browser:
+        home = Path(folder)
+        for i, (code, cars) in enumerate(CASES.values()):
+            notebook(home / "notebooks", f"case{i}", code.replace("CARS", str(cars)))
+        with jupyterlab(home, secrets.token_hex(16)) as server:
+            for i, (name, (code, cars)) in enumerate(CASES.items()):
+                for rest, how in ((0.1, "key held"),) if code is PLAIN else ((0.1, "key held"), (0.5, "after a rest")):
+                    page = browser.new_context(viewport={"width": 1366, "height": 768}).new_page()
+                    NotebookOnPage(page, server, f"case{i}").run_all()
+                    times = measured(page, presses if rest < 1 else presses // 2, rest)
+                    page.context.close()
+                    median, most = np.percentile(times, [50, 90])
+                    plain.setdefault(cars, median)
+                    label = f"{name}, {how}"
+                    print(f"  {label:58} {median:7.0f} {most:7.0f} {median / plain[cars]:12.2f}   {load()}", flush=True)
+                    for session in server.ask("api/sessions"):
+                        server.ask(f"api/sessions/{session['id']}", method="DELETE")
+
+
+if __name__ == "__main__":
+    try:
+        main(*map(int, sys.argv[1:]))
+    except NoBrowser as reason:
+        sys.exit(str(reason))
