@@ -225,6 +225,8 @@ def test_it_waits_then_plays_and_pauses_by_keyboard(browser, tmp_path, crossing)
     page, wrong = opened(browser, tmp_path, crossing)
     button, slider = page.get_by_role("button"), page.get_by_role("slider")
     assert button.get_attribute("aria-label") == "Play animation" and slider.get_attribute("aria-label") == "Time of the crossing"
+    # JupyterLab asks the focused element itself whether its own shortcuts, such as the arrow keys, should rest.
+    assert button.get_attribute("data-lm-suppress-shortcuts") == slider.get_attribute("data-lm-suppress-shortcuts") == "true"
     start = slider.input_value()
     page.wait_for_timeout(250)
     assert slider.input_value() == start, "paused at first"

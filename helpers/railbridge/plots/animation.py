@@ -47,7 +47,8 @@ for (const root of document.querySelectorAll('[data-animation="__KEY__"]')) {
 __DRAW__
   const bar = document.createElement("div"), button = document.createElement("button");
   const slider = document.createElement("input"), says = document.createElement("span");
-  bar.dataset.lmSuppressShortcuts = "true";
+  // JupyterLab then leaves arrow keys to the slider; it asks the focused element itself.
+  for (const control of [button, slider]) control.dataset.lmSuppressShortcuts = "true";
   bar.style.cssText = "display:flex;flex-wrap:wrap;gap:10px;align-items:center;padding:4px 10px";
   button.type = "button";
   button.style.cssText = "min-width:5.5em;font:inherit;padding:3px 8px;color:#222;background:#eee;border:1px solid #777;"
