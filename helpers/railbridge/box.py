@@ -120,7 +120,9 @@ class Box:
     diaphragm_thickness : float or None
         m, of the plates across the box over every bearing line; None: there are none.
     inner_diaphragms : int
-        Further such plates in each span, equally spaced.
+        Further plates in each span, equally spaced.
+    inner_diaphragm_thickness : float, optional
+        m; default `diaphragm_thickness`.
     overhang : float
         m, by which the deck reaches beyond its outer bearing lines; only the shell has it.
     track_mass, edge_mass : float
@@ -154,6 +156,7 @@ class Box:
     haunch_length: float | None = None
     diaphragm_thickness: float | None = 0.3
     inner_diaphragms: int = 0
+    inner_diaphragm_thickness: float | None = None
     overhang: float = 0.3
     track_mass: float = 0.0
     edge_mass: float = 0.0
@@ -186,8 +189,12 @@ class Box:
                 f"{where}: diaphragm_thickness", self.diaphragm_thickness, above=0.0, most=10.0, unit="m", remedy=remedy
             )
         inputs.integer(f"{where}: inner_diaphragms", self.inner_diaphragms, least=0, most=20)
-        if self.inner_diaphragms and self.diaphragm_thickness is None:
-            raise InputError(f"{where}: inner_diaphragms", self.inner_diaphragms, "have no thickness", "Give diaphragm_thickness")
+        if self.inner_diaphragm_thickness is None:
+            object.__setattr__(self, "inner_diaphragm_thickness", self.diaphragm_thickness)
+        if self.inner_diaphragms:
+            remedy = "Give it, or no inner_diaphragms"
+            thickness = self.inner_diaphragm_thickness
+            inputs.number(f"{where}: inner_diaphragm_thickness", thickness, above=0.0, most=10.0, unit="m", remedy=remedy)
         inputs.number(f"{where}: overhang", self.overhang, least=0.0, most=min(self.spans) / 2, unit="m")
         for key in ("track_mass", "edge_mass"):
             inputs.number(f"{where}: {key}", getattr(self, key), least=0.0, unit="kg/m")
@@ -304,17 +311,26 @@ class Box:
         return self.density * (_area(self.outline) - _area(self.hole))
 
     @property
-    def mass_per_metre(self) -> float:
-        """Concrete and what it carries, kg/m; without diaphragms."""
-        return self.concrete_mass + self.track_mass + self.edge_mass
+    def inner_diaphragm_mass(self) -> float:
+        """All inner diaphragms, spread over the length, kg/m."""
+        count = self.inner_diaphragms * len(self.spans)
+        return self.density * _area(self.hole) * self.inner_diaphragm_thickness * count / self.length if count else 0.0
 
-    def beam(self, shear: bool = True, rotary_inertia: bool = True, **options: Any) -> Beam:
+    @property
+    def mass_per_metre(self) -> float:
+        """Concrete with inner diaphragms spread over it, and what it carries, kg/m. Those over bearings load no span."""
+        return self.concrete_mass + self.inner_diaphragm_mass + self.track_mass + self.edge_mass
+
+    def beam(self, shear: bool = True, rotary_inertia: bool = True, clamped_in_plan: bool = False, **options: Any) -> Beam:
         """Return the beam of this box, its bearings where the pads are.
 
         Parameters
         ----------
         shear, rotary_inertia : bool
             Whether it gives way in shear, and whether turning sections have inertia.
+        clamped_in_plan : bool
+            Whether pads that hold lengthwise under both webs also hold its yaw. The sections of a beam stay plane, so they
+            would clamp it; those of the box warp and let go, as its shell shows. By default the two are one in the middle.
         **options
             Further attributes of `Beam`.
 
@@ -337,7 +353,7 @@ class Box:
             "axial_stiffness": e * s.area,
             "polar_inertia": about_y + about_z,
             "centroid_height": s.centroid[1] - s.shear_centre[1],
-            "bearings": self._beam_bearings(s.shear_centre[1]),
+            "bearings": self._beam_bearings(s.shear_centre[1], clamped_in_plan),
         }
         if shear:
             given |= {"shear_stiffness_vertical": g * s.shear_area_vertical, "shear_stiffness_lateral": g * s.shear_area_lateral}
@@ -345,11 +361,19 @@ class Box:
             given |= {"rotary_inertia_vertical": about_y, "rotary_inertia_lateral": about_z}
         return Beam(self.name, self.spans, **(given | options))
 
-    def _beam_bearings(self, centre: float) -> tuple[Bearing, ...]:
-        foot = self.bottom_spacing / 2
-        return tuple(
-            Bearing(p.x, p.fixed, side * foot, -p.drop - centre, dict(p.stiffness)) for p in self.bearings for side in p.sides
-        )
+    def _beam_bearings(self, centre: float, clamped_in_plan: bool) -> tuple[Bearing, ...]:
+        result = []
+        for p in self.bearings:
+            foot, z = self.bottom_spacing / 2, -p.drop - centre
+            fixed, springs, lengthwise = p.fixed, dict(p.stiffness), "x" in p.fixed or "x" in p.stiffness
+            if lengthwise and p.under == "both" and not clamped_in_plan:
+                fixed = tuple(f for f in p.fixed if f != "x")
+                spring = springs.pop("x", None)
+                middle = {"fixed": ("x",)} if spring is None else {"fixed": (), "stiffness": {"x": 2 * spring}}
+                result.append(Bearing(p.x, y=0.0, z=z, **middle))
+            if fixed or springs:
+                result += [Bearing(p.x, fixed, side * foot, z, dict(springs)) for side in p.sides]
+        return tuple(result)
 
     def beam_deck(self, modes: int = 20, damping: tuple[float, float] | float = 0.0, **switches: bool) -> Deck:
         """Return the modal deck of the beam, its rails on top of the slab; see `beam` for the switches."""
@@ -427,12 +451,15 @@ class Box:
         """Bearing lines, which may lie inside a span, too, and inner diaphragms, m."""
         lines = np.concatenate([[0.0], np.cumsum(self.spans)])
         inner = [np.linspace(a, b, self.inner_diaphragms + 2)[1:-1] for a, b in zip(lines[:-1], lines[1:], strict=True)]
-        return np.unique(np.round(np.concatenate([[p.x for p in self.bearings], *inner]), 9))
+        return np.unique(np.round(np.concatenate([self._bearing_lines, *inner]), 9))
+
+    @property
+    def _bearing_lines(self) -> np.ndarray:
+        """Places of bearings, m."""
+        return np.unique(np.round([p.x for p in self.bearings], 9))
 
     def _diaphragms(self, points: np.ndarray, heads: tuple[int, int], heights: np.ndarray) -> tuple[Plate, ...]:
-        """Plates over every bearing line; their grid joins the nodes of slab, webs and bottom."""
-        if self.diaphragm_thickness is None:
-            return ()
+        """Plates across; their grid joins the nodes of slab, webs and bottom."""
         slab = points[heads[0] : heads[1] + 1]
         low = heights[0]
         spacing = np.interp(heights, [low, heights[-1]], [self.bottom_spacing, self.web_spacing])
@@ -443,7 +470,12 @@ class Box:
             [spacing[:, None] * share, low + rise[:, None] * (slab[:, 1] - low)],
             axis=2,
         )
-        return tuple(Plate(float(x), self.diaphragm_thickness, grid) for x in self._diaphragm_places)
+        thickness = [
+            self.diaphragm_thickness if x in self._bearing_lines else self.inner_diaphragm_thickness
+            for x in self._diaphragm_places
+        ]
+        places = zip(self._diaphragm_places.tolist(), thickness, strict=True)
+        return tuple(Plate(x, t, grid) for x, t in places if t is not None)
 
     def shell_deck(self, modes: int = 15, damping: tuple[float, float] | float = 0.0, mesh: BoxMesh | None = None) -> Deck:
         """Return the modal deck of the shell.

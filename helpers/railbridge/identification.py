@@ -89,6 +89,7 @@ UNKNOWNS = (
     Unknown("bottom share", 0.65, 1.0, "-", "webs upright or leaning, never farther apart at the bottom"),
     Unknown("bottom_thickness", 0.12, 0.40, "m", "usual bottom plates"),
     Unknown("diaphragm_thickness", 0.15, 1.0, "m", "plate or solid end block"),
+    Unknown("inner_diaphragm_thickness", 0.15, 0.40, "m", "thin plates; without effect where there are none"),
     Unknown("youngs_modulus", 25e9, 38e9, "Pa", "concretes of the time, static to dynamic modulus"),
     Unknown("track_mass", 0.0, 3000.0, "kg/m", "none to slab tracks; between the webs"),
     Unknown("edge_mass", 0.0, 1500.0, "kg/m", "none to parapets; both edges together"),
