@@ -25,11 +25,13 @@ FLOAT = re.compile(r"(?<![\w.])-?(?:\d+\.\d*(?:[eE][-+]?\d+)?|\d+[eE][-+]?\d+)(?
 def perturbed(text, toml, chance):
     """Return a file's text with every float moved up or down; comments and texts in quotes stay."""
 
+    parameters = text.startswith("symbol,")
+
     def move(match):
         return repr(float(match.group()) * (1 + chance.choice((-SIZE, SIZE))))
 
     def move_line(line):
-        if not toml:
+        if not toml and parameters:
             # A parameter table: symbol, name, value, ...
             head, name, value, rest = line.split(",", 3)
             moved = value if head == "symbol" else repr(float(value) * (1 + chance.choice((-SIZE, SIZE))))
