@@ -1,0 +1,72 @@
+"""The static site, opened from disk: nothing is fetched, nothing is broken, formulas are drawn, nothing sticks out."""
+
+import re
+
+import pytest
+from served import ROOT
+
+SITE = ROOT / "build" / "site"
+PAGES = sorted(path.relative_to(SITE).as_posix() for path in SITE.rglob("*.html"))
+LOADED = re.compile(r"""<(?:script|img|iframe|source|video|link)\b[^>]*?\b(?:src|href)=["']?(https?:)?//""", re.IGNORECASE)
+WIDTHS = (1280, 420)  # px: a desktop, a telephone
+# Formulas are drawn, pictures are there; then what is wrong with the page, in words.
+FAULTS = """async () => {
+    await window.MathJax?.startup?.promise;
+    document.querySelectorAll('img').forEach(image => image.loading = 'eager');
+    await Promise.all([...document.images].map(image => image.decode().catch(() => null)));
+    const bad = [...document.querySelectorAll('[data-mjx-error]')].map(node => 'formula: ' + node.dataset.mjxError);
+    for (const image of document.images) {
+        if (!image.naturalWidth) bad.push('picture: ' + image.src);
+        if (!image.alt || image.alt.endsWith('.png')) bad.push('no text for: ' + image.src);
+    }
+    if (/\\$\\$|\\\\\\[/.test(document.querySelector('article')?.innerText ?? '')) bad.push('a formula was left as it is written');
+    return bad;
+}"""
+TOO_WIDE = "() => document.documentElement.scrollWidth - window.innerWidth"
+
+
+@pytest.mark.skipif(not PAGES, reason="the site is not built: make site")
+def test_pages_are_whole_without_network(page, record):
+    faults = {}
+    for name in PAGES:
+        page.set_viewport_size({"width": WIDTHS[0], "height": 900})
+        page.goto((SITE / name).as_uri())
+        found = page.evaluate(FAULTS)
+        for width in WIDTHS:
+            page.set_viewport_size({"width": width, "height": 900})
+            over = page.evaluate(TOO_WIDE)
+            found += [f"{over} px too wide at {width} px"] if over > 0 else []
+        if found:
+            faults[name] = found
+    assert faults == {}
+    assert [line for line in record.console if line.startswith(("error", "warning"))] == []
+    assert record.uncaught == []
+    assert [url for url in record.requests if not url.startswith(("file:", "data:"))] == []
+
+
+@pytest.mark.skipif(not PAGES, reason="the site is not built: make site")
+def test_pages_name_nothing_to_be_loaded_from_elsewhere():
+    assert [name for name in PAGES if LOADED.search((SITE / name).read_text(encoding="utf-8"))] == []
+    styles = [
+        path.name for path in SITE.rglob("*.css") if re.search(r"(?:url\(|@import)\s*[\"']?(?:https?:)?//", path.read_text())
+    ]
+    assert styles == []
+
+
+@pytest.mark.skipif(not PAGES, reason="the site is not built: make site")
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_text_can_be_read_on_its_ground(scheme, page):
+    page.emulate_media(color_scheme=scheme)
+    page.goto((SITE / "index.html").as_uri())
+    ground, text = page.evaluate("() => [getComputedStyle(document.body).backgroundColor, getComputedStyle(document.body).color]")
+    dark = [sum(map(int, re.findall(r"\d+", colour)[:3])) < 3 * 128 for colour in (ground, text)]
+    assert dark == [scheme == "dark", scheme == "light"]
+
+
+@pytest.mark.skipif(not PAGES, reason="the site is not built: make site")
+def test_a_picture_of_the_gallery_leads_to_its_figure(page):
+    page.goto((SITE / "gallery.html").as_uri())
+    page.locator(".rb-gallery a").first.click()
+    page.wait_for_url("**/notebooks/00_start_here.html#figure-0-1")
+    assert page.locator("#figure-0-1").count() == 1
+    assert page.locator(".rb-still").inner_text().startswith("Interactive panel")

@@ -1,0 +1,30 @@
+"""Build the static site in build/site: all notebooks as they are stored, the documents, the functions, a gallery.
+
+    python tools/site.py            then open build/site/index.html; no server and no network are needed
+
+Nothing is executed. A warning of Sphinx is an error.
+"""
+
+import shutil
+import subprocess
+import sys
+
+from site_pages import PAGES, ROOT, lay_out
+
+SITE = ROOT / "build" / "site"
+
+
+def main(arguments):
+    if arguments:
+        sys.exit(__doc__)
+    lay_out()
+    shutil.rmtree(SITE, ignore_errors=True)
+    command = [sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "--keep-going", "-E", "-j", "2"]
+    command += ["-c", ROOT / "docs" / "site", "-d", ROOT / "build" / "site-doctrees", PAGES, SITE]
+    code = subprocess.run(command).returncode
+    print("the site has faults: see above" if code else SITE / "index.html")
+    sys.exit(code)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
