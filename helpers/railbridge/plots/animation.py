@@ -252,7 +252,8 @@ def animate_crossing(run: Crossing, x: float | None = None, frames: int = 360, e
     history = run.displacement(x)
     data = {
         "frames": frames, "start": int(np.abs(shape).max(axis=1).argmax()), "loop": False, "slider": "Time of the crossing",
-        "seconds": float(np.clip(stop, 6.0, 20.0)), "deck": _rounded(-exaggeration * scale * shape), "time": _rounded(time, 3),
+        "seconds": round(float(np.clip(stop, 6.0, 20.0)), 3),
+        "deck": _rounded(-exaggeration * scale * shape), "time": _rounded(time, 3),
         "value": _rounded(1e3 * history["displacement_z"][sample], 3),
     }  # fmt: skip
     drawing = _Drawing(372)
