@@ -208,6 +208,11 @@ def test_second_bending_and_the_lengthwise_mode_form_a_pair():
         assert modes.frequencies_hz[:6] == pytest.approx(theirs, rel=1e-3)
         share = modes.energies["axial"][[modes.names.index(n) for n in names]]
         assert np.all(share > 0.15) and np.all(share < 0.75)
+    # With little shear area and rotary inertia the rigid bearing gives 11.5 and 19.8 Hz.
+    shear = {"shear_stiffness_vertical": E / 2.4 * 1.0, "rotary_inertia_vertical": 2500 * 2.553}
+    soft = deck_on(rb.Bearing(0.0, (*USUAL, "x"), z=-1.3), rb.Bearing(L, USUAL, z=-1.3), **shear)
+    assert soft.modes.frequencies_hz[[0, 2, 4]] == pytest.approx([3.19, 11.49, 19.81], abs=0.01)
+    assert soft.modes.frequencies_hz[:5] == pytest.approx(frame_of(soft, 144).frequencies(5), rel=1e-3)
 
 
 def test_a_beam_on_springs_solves_its_characteristic_equation():
@@ -422,3 +427,15 @@ def test_null_space_is_what_the_rows_leave_free(rows):
     assert np.abs(rows @ free).max(initial=0.0) < 1e-9
     assert free.shape[1] == 6 - (np.linalg.matrix_rank(rows) if len(rows) else 0)
     assert np.linalg.matrix_rank(free) == free.shape[1]
+
+
+def test_modes_on_bearings_off_the_axis_converge_with_the_mesh():
+    def frequencies(elements):
+        pads = [rb.Bearing(0.0, "x y z", 1.5, -1.3), rb.Bearing(0.0, "z", -1.5, -1.3)]
+        far = [rb.Bearing(L, "z", 1.5, -1.3), rb.Bearing(L, "z", -1.5, -1.3, {"y": 5e9})]
+        return deck_on(*pads, *far, centroid_height=0.4, elements=elements).modes.frequencies_hz[:6]
+
+    coarse, middle, fine = (frequencies(n) for n in (12, 24, 48))
+    assert np.all(coarse >= middle) and np.all(middle >= fine)  # from above, as they must
+    assert np.abs(middle - fine).max() < np.abs(coarse - middle).max() / 10
+    assert middle == pytest.approx(fine, rel=2e-4)
