@@ -3,13 +3,15 @@
 import dataclasses
 import json
 import shutil
+import tomllib
 
 import numpy as np
 import pytest
+from jsonschema import Draft7Validator
 
 import railbridge as rb
 from opensees import example_tables, viaduct36_in_mm
-from railbridge import exchange
+from railbridge import cli, exchange
 from railbridge.inputs import data_root
 from railbridge.summary import summarize
 
@@ -394,3 +396,22 @@ def test_other_refusals_name_the_field(folder):
 
 def test_the_other_programs_deck_is_the_shipped_section():
     assert viaduct36_in_mm().masses()[1].tolist() == pytest.approx([12e3 * 1e-3 * 1.5, 2500 * (2.553 + 25.53) * 1.5 * 1e3])
+
+
+def test_a_modal_deck_runs_by_command_and_fits_the_schema(folder, tmp_path, capsys):
+    schema = json.loads((data_root() / "case.schema.json").read_text(encoding="utf-8"))
+    deck = tomllib.loads((folder / "deck.toml").read_text(encoding="utf-8"))
+    content = {"deck": deck, "train": {"vehicle": "xia2000_planar"}, "run": {"speed": 20.0, "time_step": 4e-3, "iterations": 1}}
+    Draft7Validator(schema).validate(content)
+    for spoiled in ({"modes": {"nodes": "nodes.csv"}}, {**deck, "mass": 1.0}, {"modes": {**deck["modes"], "unit": "mm"}}):
+        assert not Draft7Validator(schema).is_valid({**content, "deck": spoiled})
+        with pytest.raises(rb.InputError):
+            rb.Case({**content, "deck": spoiled})
+    case = tmp_path / "case.toml"
+    run = '[train]\nvehicle = "xia2000_planar"\n[run]\nspeed = 20.0\ntime_step = 4e-3\niterations = 1\n'
+    case.write_text(f'[deck]\nfile = "model/deck.toml"\n{run}', encoding="utf-8")
+    assert cli.main(["run", str(case), "--out", str(tmp_path / "out")]) == 0
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
+    assert summary["remarks"] and summary["points"][0]["moment_vertical"] is None
+    header = (tmp_path / "out" / "points.csv").read_text(encoding="utf-8").splitlines()[0]
+    assert "displacement_z" in header and "moment" not in header
