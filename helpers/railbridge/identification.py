@@ -25,7 +25,7 @@ from . import inputs
 from .box import Box, BoxMesh, Pads, shell_against_beam
 from .inputs import InputError
 from .paper import TABLE2_DECK
-from .shell import Shell, ShellModes, pairs
+from .shell import Pad, Shell, ShellModes, pairs
 
 __all__ = [
     "COARSE", "FAMILIES", "HYPOTHESES", "MASS", "SINGLE", "UNKNOWNS", "Fit", "Unknown", "beam_frequencies", "bearing_study",
@@ -425,23 +425,27 @@ def bearing_study(box: Box, mesh: BoxMesh = COARSE) -> dict[str, dict[str, float
     Returns
     -------
     dict
-        For each kind of bearing, the frequencies (Hz) of `FAMILIES`.
+        For each kind of bearing, the frequencies (Hz) of `FAMILIES`. ``in the axis`` has the identified springs on the
+        webs at the height of the centre of mass: second bending and the axial mode then no longer know of each other.
     """
-    first = box.bearings[0]
-    kinds = {
-        "as identified": first,
-        "rigid": replace(first, fixed=("x", "y", "z"), stiffness={}),
-        "soft (1 MN/m)": replace(first, stiffness={"x": 1e6}),
-        "under one web only": None,
-    }
+    shell = box.shell(mesh)
+
+    def held(pad: Pad, kind: str) -> tuple[Pad, ...]:
+        if "x" not in pad.stiffness:
+            return (pad,)
+        if kind == "rigid":
+            return (replace(pad, fixed=("x", *pad.fixed), stiffness={}),)
+        if kind == "soft (1 MN/m)":
+            return (replace(pad, stiffness={"x": 1e6}),)
+        if kind == "in the axis":
+            # On the web, at the node nearest to that height.
+            height = np.abs(shell.points[:, 1] - shell.centre[1]) + np.abs(shell.points[:, 0] - shell.points[pad.point, 0])
+            return replace(pad, stiffness={}), replace(pad, fixed=(), arm=0.0, point=int(np.argmin(height)))
+        return (pad,)
+
     result = {}
-    for kind, pads in kinds.items():
-        if pads is None:
-            other = replace(first, stiffness={}, under="right")
-            changed = replace(box, bearings=(replace(first, under="left"), other, *box.bearings[1:]))
-        else:
-            changed = replace(box, bearings=(pads, *box.bearings[1:]))
-        shell = changed.shell(mesh)
-        modes = shell.modes(len(TABLE2_DECK) + _EXTRA)
-        result[kind] = {k: float(modes.frequencies_hz[i]) for k, i in families(shell, modes, box.length).items()}
+    for kind in ("as identified", "rigid", "soft (1 MN/m)", "in the axis"):
+        changed = replace(shell, pads=tuple(p for pad in shell.pads for p in held(pad, kind)))
+        modes = changed.modes(len(TABLE2_DECK) + _EXTRA)
+        result[kind] = {k: float(modes.frequencies_hz[i]) for k, i in families(changed, modes, box.length).items()}
     return result
