@@ -212,12 +212,12 @@ class Mesh:
                 k[here, here] += size * np.outer(row, row)
         return k
 
-    def _reduced(self, matrix: np.ndarray) -> np.ndarray:
-        return self.basis.T @ (self.basis.T @ matrix).T
+    def _reduced(self, matrix: np.ndarray) -> csr_array:
+        return (self.basis.T @ csr_array(matrix) @ self.basis).tocsr()
 
     @cached_property
     def _factor(self):
-        return cho_factor(self._reduced(self.stiffness))
+        return cho_factor(self._reduced(self.stiffness).toarray())
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """Return the static displacement of all freedoms under a nodal load; the bearings hold."""
@@ -228,11 +228,13 @@ class Mesh:
     def modes(self) -> BeamModes:
         """Solve each uncoupled group of freedoms on its own: a straight beam on bearings in its axis falls into four."""
         k, m = self._reduced(self.stiffness), self._reduced(self.matrices[1])
-        count, group = connected_components(csr_array((k != 0) | (m != 0)), directed=False)
+        pattern = abs(k) + abs(m)
+        pattern.eliminate_zeros()
+        count, group = connected_components(pattern, directed=False)
         squares, vectors = [], []
         for g in range(count):
             here = np.flatnonzero(group == g)
-            values, shapes = eigh(k[np.ix_(here, here)], m[np.ix_(here, here)])
+            values, shapes = eigh(*(a[here][:, here].toarray() for a in (k, m)))
             squares.append(values)
             vectors.append(self.basis[:, here] @ shapes)
         squares, vectors = np.concatenate(squares), np.hstack(vectors)
