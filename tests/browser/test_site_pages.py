@@ -19,7 +19,8 @@ FAULTS = """async () => {
         if (!image.naturalWidth) bad.push('picture: ' + image.src);
         if (!image.alt || image.alt.endsWith('.png')) bad.push('no text for: ' + image.src);
     }
-    if (/\\$\\$|\\\\\\[/.test(document.querySelector('article')?.innerText ?? '')) bad.push('a formula was left as it is written');
+    const text = document.querySelector('article')?.innerText ?? '';
+    if (/\\$\\$|\\\\\\[/.test(text)) bad.push('a formula was left as it is written');
     return bad;
 }"""
 TOO_WIDE = "() => document.documentElement.scrollWidth - window.innerWidth"
