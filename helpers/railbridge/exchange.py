@@ -451,10 +451,13 @@ def _motion(functions: PiecewiseCubic) -> np.ndarray:
 def _warn_of_overlap(model: ModalModel, motion: np.ndarray, kept: np.ndarray) -> None:
     """Warn of modes that look alike along the rail, as over a uniform deck: without masses nobody can say more.
 
-    Only modes that hardly twist are compared: at a rail off the shear centre, twist looks like bending.
+    Only modes of the whole deck that hardly twist are compared, those with as much mass at the rail as the first of them: at a
+    rail off the shear centre twist looks like bending, and local modes may look like anything.
     """
     size = np.sum(motion[kept] ** 2, axis=-1)
-    bending = kept[size[:, 2] < 0.1 * size.sum(axis=1)]
+    whole = size.sum(axis=1)
+    calm = size[:, 2] < 0.1 * whole
+    bending = kept[calm & (np.abs(np.log2(whole / whole[np.argmax(calm)])) < 1.0)]
     flat = motion[bending].reshape(len(bending), -1)
     flat = flat / np.linalg.norm(flat, axis=1, keepdims=True)
     overlap = np.abs(np.triu(flat @ flat.T, 1))
