@@ -132,6 +132,12 @@ def test_without_a_readable_record_every_difference_is_kept(folder, newer, capsy
     assert (folder / NOTEBOOK).read_bytes() == old
 
 
+def test_the_current_folder_will_do(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert command(capsys, ".")[0] == 0
+    assert (tmp_path / NOTEBOOK).is_file() and set(files(tmp_path)) == {*lessons.contents(), lessons.MANIFEST}
+
+
 def test_a_deleted_copy_comes_back(folder, capsys):
     (folder / NOTEBOOK).unlink()
     assert "1 copied" in command(capsys, folder)[1][0]
@@ -146,15 +152,18 @@ def test_a_deleted_copy_comes_back(folder, capsys):
         ("a.txt/below", "cannot be written to"),
         ("\0", "cannot be written to"),
         ("full", "is a folder where a file of the suite goes"),
+        ("taken", "is a file where a folder of the suite goes"),
     ],
 )
 def test_a_bad_folder_is_refused_in_one_line_and_nothing_is_written(tmp_path, monkeypatch, capsys, name, words):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "a.txt").write_text("text")
     (tmp_path / "full" / NOTEBOOK).mkdir(parents=True)
+    (tmp_path / "taken").mkdir()
+    (tmp_path / "taken" / "data").write_text("text")
     code, out, err = command(capsys, name)
     assert (code, out, len(err)) == (2, [], 1) and words in err[0] and "DIR" in err[0]
-    assert files(tmp_path) == {"a.txt": b"text"}
+    assert files(tmp_path) == {"a.txt": b"text", "taken/data": b"text"}
     assert {p.name for p in (tmp_path / "full").iterdir()} == {NOTEBOOK}
 
 

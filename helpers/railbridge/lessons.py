@@ -97,7 +97,7 @@ def plan(folder: Path, force: bool = False) -> list[Copy]:
     Raises
     ------
     InputError
-        The folder belongs to the suite itself, or a folder stands where a file should go.
+        The folder belongs to the suite itself, or a folder stands where a file should go, or a file where a folder should.
     """
     _refuse_own(folder)
     known = _recorded(folder)
@@ -106,6 +106,9 @@ def plan(folder: Path, force: bool = False) -> list[Copy]:
         target = folder / name
         if target.is_dir():
             raise InputError("DIR", str(target), "is a folder where a file of the suite goes", "Move it, or choose another DIR")
+        blocked = next((p for p in target.parents if p.is_relative_to(folder) and p.exists() and not p.is_dir()), None)
+        if blocked:
+            raise InputError("DIR", str(blocked), "is a file where a folder of the suite goes", "Move it, or choose another DIR")
         if not target.exists():
             result.append(Copy(name, "copied", content))
             continue
