@@ -379,6 +379,12 @@ def test_other_refusals_name_the_field(folder):
         with pytest.raises(rb.InputError) as error:
             model.nodes.line(rail)
         assert error.value.field == field
+    for damping in (-0.1, "little", (1.0,)):
+        with pytest.raises(rb.InputError, match="damping"):
+            exchange.deck_from_modes(model, model.nodes.line({"y": 0.0, "z": 0.0}), damping=damping)
+    still = dataclasses.replace(model, shapes=0.0 * model.shapes)
+    with pytest.raises(rb.InputError, match="rail: stands still in every mode"):
+        exchange.deck_from_modes(still, model.nodes.line({"y": 0.0, "z": 0.0}))
     for axes in (["x", "y", "-z"], ["x", "x", "z"], "xyz", ["x", "up", "z"]):
         with pytest.raises(rb.InputError, match="axes"):
             read(EXAMPLE, axes=axes)

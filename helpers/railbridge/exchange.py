@@ -360,14 +360,18 @@ def deck_from_modes(
     functions = _along(line, shapes, model.rotations)
     motion = _motion(functions)
     size = np.sum(motion**2, axis=-1)
+    if not size.any():
+        raise InputError("rail", None, "stands still in every mode", "Does it run along the deck's bearings?")
     moving = np.flatnonzero(np.sqrt(size.sum(axis=1) / size.sum(axis=1).max()) > 1e-6)
     kept = moving[: inputs.integer("modes.count", count, least=1, most=len(moving)) if count is not None else None]
     frequencies = model.frequencies_hz[kept]
     _refuse_units(line, supports, frequencies, size[kept], unusual)
     if model.masses is None:
         _warn_of_overlap(model, motion, kept)
-    if damping is not None:
-        ratios = np.full(len(kept), damping) if np.isscalar(damping) else rayleigh_ratio(*damping, frequencies)
+    if damping is not None and np.isscalar(damping):
+        ratios = np.full(len(kept), inputs.number("damping", damping, least=0.0, most=0.5))
+    elif damping is not None:
+        ratios = rayleigh_ratio(*inputs.numbers("damping", damping, count=2, least=0.0), frequencies)
     elif np.isfinite(model.damping_ratios).all():
         ratios = model.damping_ratios[kept]
     else:
