@@ -1,5 +1,6 @@
 """Panels without a browser: `.set` takes the slider's path, so what is tested here is what a hand does."""
 
+import asyncio
 import io
 
 import numpy as np
@@ -62,6 +63,64 @@ def test_the_slider_and_set_take_the_same_path(all_panels):
     assert panel.summary == words
     assert png(panel) == by_set
     panel.reset()
+
+
+def limits(panel):
+    return [(*ax.get_xlim(), *ax.get_ylim()) for ax in panel.figure.axes]
+
+
+def test_a_case_has_its_own_limits_whatever_was_shown_before(panel):
+    panel.set(speed=21.0)
+    shown = limits(panel)
+    panel.set(speed=60.0, wavelength=4.0).set(speed=5.0, wavelength=30.0).set(**panel.start).set(speed=21.0)
+    assert limits(panel) == shown
+
+
+def move_with_a_kernel(panel, moves, seconds=5.0):
+    """Move sliders as messages of a kernel do, inside an event loop; return what is said at once, and what at rest."""
+
+    async def work():
+        for name, value in moves:
+            panel.sliders[name].value = value
+        at_once, end = panel.words.value, asyncio.get_running_loop().time() + 60.0
+        while "Moving" in panel.words.value and asyncio.get_running_loop().time() < end:
+            await asyncio.sleep(0.05)
+        return at_once, panel.words.value
+
+    return asyncio.run(work())
+
+
+@pytest.mark.parametrize("name", ["rigid_forces", "deck_response", "fixed_point", "overview"])
+def test_a_moving_panel_answers_with_coarser_steps_and_exactly_at_rest(all_panels, name):
+    panel = all_panels[name]
+    at_once, at_rest = move_with_a_kernel(panel, [("speed", 23.0), ("speed", 24.0)])
+    assert "Moving: time step up to 8 ms; 1 ms follows." in at_once and "role=status" not in at_once
+    assert "24.0 m/s" in at_once and "24.0 m/s" in at_rest and "Time step 1 ms." in at_rest
+    shown, said = limits(panel), panel.words.value
+    panel.reset().set(speed=24.0)
+    assert panel.words.value == said
+    assert limits(panel) == shown
+    panel.reset()
+
+
+@pytest.mark.parametrize("loads", ["condensed", "wheels"])
+@pytest.mark.parametrize("speed", [20.0, 37.0, 60.0])
+def test_coarser_steps_are_close_to_the_exact_ones(all_panels, speed, loads):
+    panel = all_panels["fixed_point"]
+    values = panel.values | {"speed": speed, "loads": loads}
+    (_, rough), (_, exact) = (panel._solve(values, rough=rough) for rough in (True, False))
+    rough, exact = rough[4], exact[4]
+    assert rough.settings.time_step > 4 * exact.settings.time_step
+    assert rough.iterations == exact.iterations
+    w, coarse = exact.displacement(18.0)["displacement_z"], rough.displacement(18.0)["displacement_z"]
+    both = rough.time <= exact.time[-1]
+    assert np.abs(np.interp(rough.time, exact.time, w) - coarse)[both].max() < 0.012 * np.abs(w).max()
+    assert coarse.min() == pytest.approx(w.min(), rel=2e-3)
+
+
+def test_a_coarser_step_that_the_case_does_not_allow_is_not_taken():
+    short = rb.case("paper").replace({"run.time_step": None, "run.lead_in": 1.0, "train.cars": 1, "run.interaction": "rigid"})
+    assert panels.panel._coarser(short) is short
 
 
 def test_artists_are_moved_not_added(panel):
@@ -188,3 +247,17 @@ def test_panels_leave_no_figure_behind():
     before = plt.get_fignums()
     panels.irregularities()
     assert plt.get_fignums() == before
+
+
+def test_the_page_of_the_app_is_the_explorer_and_asks_nobody_else(tmp_path):
+    import nbformat
+
+    import app
+
+    cells = nbformat.read(app.write_page(tmp_path), as_version=4).cells
+    scope = {}
+    for cell in cells:
+        *lines, last = cell.source.split("\n") if "railbridge" in cell.source else ["pass"]
+        exec("\n".join(lines), scope)
+    assert isinstance(eval(last, scope), panels.Panel)
+    assert not any("http" in cell.source for cell in cells)

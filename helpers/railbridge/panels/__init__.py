@@ -24,7 +24,7 @@ from ..deck import rayleigh, rayleigh_ratio
 from ..plots.scene import car_components, crossing_at, mark_now
 from ..train import CONDENSED, steady_forces
 from .control import Control
-from .panel import FALLBACK, Panel
+from .panel import DPI, FALLBACK, Panel
 
 __all__ = [
     "FALLBACK", "Control", "Panel", "deck_modes", "deck_response", "fixed_point", "irregularities", "overview", "rigid_forces",
@@ -247,8 +247,11 @@ def fixed_point(case: Case | None = None) -> Panel:
     return Panel(base, controls, axes, draw, say, compute=_stages, code=line, size=size, heights=heights, rough=True)
 
 
-def overview(case: Case | None = None) -> Panel:
-    """Panel of notebook 00, the explorer: the train on the moving bridge, five forces, mid-span, spectrum, deviation."""
+def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
+    """Panel of notebook 00, the explorer: the train on the moving bridge, five forces, mid-span, spectrum, deviation.
+
+    `dpi`: dots per inch of the picture; more for a projector.
+    """
     base = _based(case, _ITERATED)
     reach = int(np.ceil((base.deck.length + base.train.length) / 10)) * 10
 
@@ -269,5 +272,7 @@ def overview(case: Case | None = None) -> Panel:
     place = Control("place", "first axle (m)", (), 0, reach, 1, start=min(100, reach), plays=True)
     controls = [_speed(), _wavelength(), _amplitude(), _cars(), _iteration(), place]
     line = "run.at({iteration}).displacement(x={x:g}).extreme('displacement_z')  # m, s"
-    size, heights = (11.0, 5.6), [0.75, 1.2, 1.0]
-    return Panel(base, controls, axes, draw, say, compute=_stages, code=line, size=size, heights=heights, rough=True)
+    return Panel(
+        base, controls, axes, draw, say,
+        compute=_stages, code=line, size=(11.0, 5.6), heights=[0.75, 1.2, 1.0], rough=True, dpi=dpi,
+    )  # fmt: skip

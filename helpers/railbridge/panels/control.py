@@ -14,7 +14,7 @@ from ..inputs import InputError
 
 __all__ = ["Control", "present", "put", "read"]
 
-LABEL = "8em"  # room for the longest label: what does not fit is cut
+LABEL = "8.2em"  # room for the longest label: what does not fit is cut
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Control:
 
     def widget(self, value: Any) -> widgets.Widget:
         """Make the slider or list, showing a value given in SI units."""
-        layout = widgets.Layout(flex="1 1 14em", min_width="0")
+        layout = widgets.Layout(flex="1 1 100%", min_width="0")
         shared = {"description": self.label, "style": {"description_width": LABEL}, "layout": layout}
         if self.choices:
             return widgets.Dropdown(options=self.choices, value=value, **shared)
@@ -85,7 +85,8 @@ class Control:
 
     def player(self, slider: widgets.Widget) -> widgets.Widget:
         """Make the buttons that let a slider run by itself, in the browser."""
-        play = widgets.Play(min=self.low, max=self.high, step=2 * self.step, interval=100, show_repeat=False)
+        play = widgets.Play(slider.value, min=self.low, max=self.high, step=2 * self.step, interval=100, show_repeat=False,
+                            layout=widgets.Layout(width="8em", margin=f"0 0 0 {LABEL}"))  # fmt: skip
         widgets.jslink((play, "value"), (slider, "value"))
         return play
 

@@ -22,7 +22,7 @@ from ..inputs import InputError
 from ..plots.drawing import WIDTH, hold, live
 from ..plots.picture import Picture
 from ..settings import default_time_step
-from .control import Control, present, put, read
+from .control import LABEL, Control, present, put, read
 
 __all__ = ["FALLBACK", "Panel"]
 
@@ -65,6 +65,8 @@ class Panel:
         Relative heights of the rows.
     rough : bool
         Whether the result is a crossing, so that a coarser time step serves while a control is moved.
+    dpi : float
+        Dots per inch of the picture; more for a projector.
 
     Raises
     ------
@@ -85,6 +87,7 @@ class Panel:
         size: tuple[float, float] = (WIDTH, 4.6),
         heights: Sequence[float] | None = None,
         rough: bool = False,
+        dpi: float = DPI,
     ) -> None:
         self.controls = {c.name: present(c, case) for c in controls}
         self.start = {c.name: c.check(read(case, c)) for c in self.controls.values()}
@@ -96,7 +99,7 @@ class Panel:
         self._moves = 0
         self._later: asyncio.TimerHandle | None = None
         self._held = False
-        self.figure = Figure(figsize=size, dpi=DPI, layout="constrained")
+        self.figure = Figure(figsize=size, dpi=dpi, layout="constrained")
         FigureCanvasAgg(self.figure)
         self._axes = self.figure.subplot_mosaic(axes, height_ratios=heights)
         self._picture = Picture(self.figure)
@@ -108,7 +111,8 @@ class Panel:
 
     def _build(self) -> None:
         self.sliders = {n: c.widget(self.start[n]) for n, c in self.controls.items()}
-        self._asides = {n: widgets.Label() for n, c in self.controls.items() if c.aside}
+        aside = widgets.Layout(margin=f"0 0 0 {LABEL}")
+        self._asides = {n: widgets.Label(layout=aside) for n, c in self.controls.items() if c.aside}
         for slider in self.sliders.values():
             slider.observe(lambda _: self._moved(), names="value")
         self.image = widgets.Image(format="png", layout=widgets.Layout(width="100%"))
@@ -116,9 +120,14 @@ class Panel:
         self.words, self.trouble = widgets.HTML(), widgets.HTML()
         self.words.add_class("rb-summary")
         self.trouble.add_class("rb-error")
-        self.paper_button = widgets.Button(description="Paper case", tooltip="All controls back to where they started")
+        natural = widgets.Layout(width="auto")
+        self.paper_button = widgets.Button(
+            description="Paper case", layout=natural, tooltip="All controls back to where they started"
+        )
         self.paper_button.on_click(lambda _: self._put(self.start, self._moved))
-        self.code_button = widgets.Button(description="Show this as code", tooltip="Python lines that compute this very case")
+        self.code_button = widgets.Button(
+            description="Show this as code", layout=natural, tooltip="Python lines that compute this very case"
+        )
         self.code_button.on_click(lambda _: self._show_code())
         self.code_area = widgets.Textarea(rows=14, layout=widgets.Layout(width="100%", max_width="900px", display="none"))
         wide = self.figure.get_figwidth() * DPI
@@ -132,6 +141,8 @@ class Panel:
             [self.image, self.words, self.trouble],
             layout=widgets.Layout(flex=f"6 1 {0.82 * wide:.0f}px", min_width="0", max_width=f"{wide:.0f}px"),
         )
+        side.add_class("rb-side")
+        main.add_class("rb-main")
         body = widgets.HBox([side, main], layout=widgets.Layout(flex_flow="row wrap", grid_gap="4px 1em"))
         self.widget = widgets.VBox([body, self.code_area])
         self.widget.add_class("rb-panel")
@@ -264,7 +275,7 @@ class Panel:
             exact = f"{1e3 * case.settings.time_step:.2g} ms"
             quick = f"{1e3 * ROUGH_STEP:.2g} ms"
             said += f" <i>Moving: time step up to {quick}; {exact} follows.</i>" if rough else f" Time step {exact}."
-        self.words.value = said
+        self.words.value = f'<div style="line-height:1.35">{said}</div>'
         self.trouble.value = ""
         self._tell_asides(values)
         if self.code_area.layout.display != "none":
@@ -286,7 +297,8 @@ class Panel:
         return {**bundle, "text/plain": FALLBACK}
 
 
-_ALERT = "background:#fdecea;color:#7a0c17;border-left:4px solid #b00020;padding:4px 10px"  # readable on light and dark pages
+# Readable on light and dark pages.
+_ALERT = "line-height:1.35;background:#fdecea;color:#7a0c17;border-left:4px solid #b00020;padding:4px 10px"
 
 
 def _coarser(case: Case) -> Case:

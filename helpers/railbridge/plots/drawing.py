@@ -243,11 +243,12 @@ def _fit(ax: Axes) -> None:
         start, stop = get()
         if ax.get_gid() == "live, held" and start <= low and high <= stop and (log or high - low > 0.25 * (stop - start)):
             continue
-        put(_round_limits(low, high, log, along))
+        # Places along the track stay the same whatever is moved.
+        put((low, high) if along and ax.get_xlabel() == ALONG else _round_limits(low, high, log, along))
 
 
 def _round_limits(low: float, high: float, log: bool, along: bool) -> tuple[float, float]:
-    """Return round limits: whole decades; or, either way, a rung along x, halves of the larger rung along y."""
+    """Return round limits: whole decades; or, either way from zero, a rung along x, halves of the larger rung along y."""
     if log:
         first, last = np.floor(np.log10(low) + 1e-9), np.ceil(np.log10(high) - 1e-9)
         return 10.0**first, 10.0 ** max(last, first + 1)
@@ -256,6 +257,9 @@ def _round_limits(low: float, high: float, log: bool, along: bool) -> tuple[floa
         return -1.0, 1.0
     if along:
         return tuple(float(np.sign(v) * rung(abs(v), _FINE_RUNGS)) if v else 0.0 for v in (min(low, 0.0), max(high, 0.0)))
+    if low * high > 0 and high - low < 0.5 * reach:  # far from zero, as a weight and a little force
+        part = rung(max(high - low, 1e-6 * reach))
+        return part * float(np.floor(low / part)), part * float(np.ceil(high / part))
     part = rung(1.04 * reach) / 2
     below, above = (part * np.ceil((v + 0.02 * reach) / part) if v > 0 else 0.0 for v in (-low, high))
     return -float(below), float(above)
