@@ -38,12 +38,12 @@ right = -2.4
 x = 0.0
 fixed = "y z"
 stiffness = {{ x = {spring:.6g} }}      # N/m each
-drop = {drop:.4g}                         # m below the box, point of rotation
+drop = {drop:g}                          # m below the box, point of rotation
 
 [[bearing]]
 x = 36.0
 fixed = "y z"
-drop = {drop:.4g}
+drop = {drop:g}
 """
 
 _WRITTEN = (
@@ -64,7 +64,7 @@ def deck_file(best: dict) -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--starts", type=int, default=3, help="random starts for each number of inner diaphragms (3)")
+    parser.add_argument("--starts", type=int, default=6, help="random starts for each number of inner diaphragms (6)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--to", type=Path, default=inputs.data_root(), help="folder of data to write to")
     options = parser.parse_args()

@@ -14,7 +14,8 @@ paired in ascending order.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -76,6 +77,10 @@ class Unknown:
     high: float
     unit: str
     why: str
+
+    def rounded(self, value: float) -> float:
+        """Return a value as one would write it into a drawing: mm, 0.1 GPa, kg/m."""
+        return round(value, {"m": 3, "Pa": -8, "kg/m": 0, "-": 3, "N/m": 2}[self.unit]) + 0.0
 
 
 UNKNOWNS = (
@@ -244,7 +249,6 @@ def search(
     hypothesis: str = "as ordered",
     mesh: BoxMesh = COARSE,
     steps: int = 20,
-    progress: Callable[[str], None] = lambda line: None,
 ) -> tuple[Fit, np.ndarray]:
     """Improve one start by bounded least squares.
 
@@ -254,8 +258,6 @@ def search(
         Unknowns scaled to 0..1 between their bounds.
     inner_diaphragms, hypothesis, mesh, steps
         What is held, and the most steps.
-    progress : callable
-        Told a line now and then.
 
     Returns
     -------
@@ -273,9 +275,7 @@ def search(
         ftol=1e-4,
         xtol=1e-4,
     )
-    fit = problem.fit(result.x)
-    progress(f"{result.nfev} steps: {fit.rms():.2f} % over the first ten, {fit.rms(15):.2f} % over all, {fit.mass / 1e3:.2f} t/m")
-    return fit, result.x
+    return problem.fit(result.x), result.x
 
 
 def sensitivities(u: np.ndarray, inner_diaphragms: int = 0, mesh: BoxMesh = COARSE) -> tuple[np.ndarray, np.ndarray]:
@@ -295,53 +295,62 @@ def sensitivities(u: np.ndarray, inner_diaphragms: int = 0, mesh: BoxMesh = COAR
 
 
 def identify(
-    starts: int = 3, seed: int = 1, inner: Iterable[int] = (0, 2), progress: Callable[[str], None] = lambda line: None
+    starts: int = 6,
+    seed: int = 1,
+    inner: Sequence[int] = (0, 2),
+    workers: int = 2,
+    progress: Callable[[str], None] = lambda line: None,
 ) -> dict[str, Any]:
     """Search from several starts on the coarse mesh, polish the best on the default one, test other hypotheses.
 
     Parameters
     ----------
     starts : int
-        For each number of inner diaphragms.
+        The same for each number of inner diaphragms.
     seed : int
         Of the random starts.
-    inner : iterable of int
+    inner : sequence of int
         Numbers of inner diaphragms to try.
+    workers : int
+        Searches that run at a time, each in a process of its own.
     progress : callable
         Told a line for each search.
 
     Returns
     -------
     dict
-        What `stored` reads back: best box, all starts, their spread, singular values and directions, alternatives.
+        What `stored` reads back: best box, all searches, singular values and directions, alternatives.
     """
     rng = np.random.default_rng(seed)
-    found = []
-    for count in inner:
-        for i in range(inputs.integer("identification: starts", starts, least=1, most=100)):
-            fit, u = search(
-                rng.uniform(0.2, 0.8, len(UNKNOWNS)),
-                count,
-                progress=_labelled(progress, f"{count} inner diaphragms, start {i + 1}"),
-            )
-            found.append((fit, u))
-    coarse, u = min(found, key=lambda pair: _cost(pair[0]))
-    inner_best = coarse.inner_diaphragms
-    alternatives = []
-    for name in list(HYPOTHESES)[1:]:
-        fit, _ = search(u, inner_best, name, steps=12, progress=_labelled(progress, name))
-        alternatives.append(fit.to_dict())
-    best, u = search(u, inner_best, mesh=BoxMesh(), steps=8, progress=_labelled(progress, "polished"))
-    # What is stored is what is drawn: dimensions of four digits.
-    best = evaluate({k: float(f"{v:.4g}") for k, v in best.values.items()}, inner_best)
-    values, directions = sensitivities(u, inner_best)
+    count = inputs.integer("identification: starts", starts, least=1, most=100)
+    draws = rng.uniform(0.2, 0.8, (count, len(UNKNOWNS)))
+    with ProcessPoolExecutor(inputs.integer("identification: workers", workers, least=1, most=64)) as pool:
+
+        def together(jobs: dict[str, tuple]) -> list[tuple[Fit, np.ndarray]]:
+            waiting = {pool.submit(search, *arguments): label for label, arguments in jobs.items()}
+            for done in as_completed(waiting):
+                fit = done.result()[0]
+                errors = f"{fit.rms():.2f} % over the first ten, {fit.rms(15):.2f} % over all"
+                progress(f"{waiting[done]}: {errors}, {fit.mass / 1e3:.2f} t/m")
+            return [future.result() for future in waiting]
+
+        labels = [(i, n) for n in inner for i in range(count)]
+        found = together({f"{n} inner diaphragms, start {i + 1}": (draws[i], n) for i, n in labels})
+        coarse, u = min(found, key=lambda pair: _cost(pair[0]))
+        held = coarse.inner_diaphragms
+        jobs = {name: (u, held, name, COARSE, 12) for name in list(HYPOTHESES)[1:]}
+        jobs["polished on the default mesh"] = (u, held, "as ordered", BoxMesh(), 8)
+        *others, (best, u) = together(jobs)
+    # What is stored is what is drawn.
+    best = evaluate({x.name: x.rounded(best.values[x.name]) for x in UNKNOWNS}, held)
+    values, directions = sensitivities(u, held)
     return {
         "label": "identified, not known",
         "source": "Amaral & Mazzilli 2016, Tables 2 and 4",
         "unknowns": {x.name: {"low": x.low, "high": x.high, "unit": x.unit, "why": x.why} for x in UNKNOWNS},
         "best": best.to_dict(),
         "coarse": [fit.to_dict() for fit, _ in found],
-        "alternatives": alternatives,
+        "alternatives": [fit.to_dict() for fit, _ in others],
         "singular_values": [round(float(v), 4) for v in values],
         "directions": [{x.name: round(float(c), 3) for x, c in zip(UNKNOWNS, row, strict=True)} for row in directions],
     }
@@ -349,10 +358,6 @@ def identify(
 
 def _cost(fit: Fit) -> float:
     return fit.rms(10) + max(0.0, 100 * abs(fit.mass / MASS - 1) - 10)
-
-
-def _labelled(progress: Callable[[str], None], label: str) -> Callable[[str], None]:
-    return lambda line: progress(f"{label}: {line}")
 
 
 def stored() -> dict[str, Any]:

@@ -34,8 +34,8 @@ KINDS = ("vertical", "lateral", "torsion", "axial", "local")
 """The parts of a mode's kinetic energy."""
 
 _LABELS = {
-    "vertical": "vertical bending", "lateral": "lateral bending", "torsion": "torsion", "axial": "axial-bending",
-    "local": "local plate",
+    "vertical": "vertical bending", "lateral": "lateral bending", "torsion": "torsion", "axial": "axial",
+    "mixed": "axial-bending", "local": "local plate",
 }  # fmt: skip
 _DIRECTIONS = ("x", "y", "z")
 
@@ -116,8 +116,9 @@ class Pad:
 class ShellModes:
     """Natural modes of a shell, ascending.
 
-    The rule of the names: the part of the kinetic energy that is largest gives the kind, except that a mode whose axial
-    part is at least a quarter of axial and vertical together is axial-bending; local where the local part exceeds a half.
+    The rule of the names: local where the local part of the kinetic energy exceeds a half; axial-bending where the axial part
+    is between a quarter and three quarters of axial and vertical together, and both are more than the rest; else the kind
+    of the largest part.
 
     Attributes
     ----------
@@ -553,7 +554,7 @@ class Shell:
         x, y, z, roll, pitch, yaw = parts / total
         shares = {"vertical": z + pitch, "lateral": y + yaw, "torsion": roll, "axial": x}
         shares["local"] = np.clip(1.0 - sum(shares.values()), 0.0, None)
-        names, seen = [], dict.fromkeys(KINDS, 0)
+        names, seen = [], dict.fromkeys(_LABELS, 0)
         for i in range(len(frequencies)):
             kind = _kind({k: float(v[i]) for k, v in shares.items()})
             seen[kind] += 1
@@ -613,8 +614,9 @@ class Shell:
 def _kind(shares: dict[str, float]) -> str:
     if shares["local"] > 0.5:
         return "local"
-    if shares["axial"] >= 0.25 * (shares["axial"] + shares["vertical"]) and shares["axial"] + shares["vertical"] > 0.5:
-        return "axial"
+    along = shares["axial"] + shares["vertical"]
+    if along > 0.5 and 0.25 <= shares["axial"] / along <= 0.75:
+        return "mixed"
     return max(("vertical", "lateral", "torsion", "axial"), key=lambda k: shares[k])
 
 
