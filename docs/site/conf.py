@@ -15,6 +15,7 @@ author = "The railbridge contributors"
 project_copyright = "The railbridge contributors. Code BSD-3-Clause, text and figures CC BY 4.0"
 version = release = version_of("railbridge")
 language = "en"
+highlight_language = "none"  # blocks that name no language are commands and sketches
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax"]
 root_doc = "index"

@@ -6,7 +6,7 @@ folder. Each server finds a free port by itself.
 
 import json
 import os
-import socket
+import re
 import subprocess
 import sys
 import time
@@ -88,6 +88,7 @@ class Server:
 @contextmanager
 def running(command, home, cwd):
     """Start a program with its log in the folder `home`; stop it, and nothing else, at the end."""
+    home.mkdir(exist_ok=True)
     log = home / "server.log"
     with log.open("w", encoding="utf-8") as stream:
         process = subprocess.Popen(
@@ -152,8 +153,10 @@ def port_in(note):
         return None
 
 
-def free_port():
-    """A port that nobody listens on at this moment."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+@contextmanager
+def app(home):
+    """The explorer of notebook 00 as a web page, as `make app` shows it."""
+    command = [sys.executable, ROOT / "tools" / "app.py", "--no-browser"]
+    with running(command, home, home) as (process, log):
+        found = wait_until(lambda: re.search(r"http://[\d.:]+", log.read_text(encoding="utf-8")), process, log)
+        yield Server(found.group(), "", log)
