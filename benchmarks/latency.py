@@ -86,11 +86,12 @@ def measured(page, presses, rest):
     slider = root.get_by_role("slider").first
     slider.focus()
     for count in range(1, presses + 1):
-        # Up and down again, from 20 m/s.
-        page.keyboard.press("ArrowRight" if count <= presses // 2 else "ArrowLeft")
+        page.keyboard.press("ArrowRight")  # to speeds that have not been shown yet
         page.wait_for_function("count => window.rbTimes.length >= count", arg=count, polling=10)
-        if rest > REST:  # the exact picture has come
-            page.wait_for_function("() => !document.querySelector('.rb-summary').innerText.includes('Moving')")
+        if rest > REST:  # first the words of this picture come, then the exact one
+            for says in ("", "!"):
+                condition = f"() => {says}document.querySelector('.rb-summary').innerText.includes('Moving')"
+                page.wait_for_function(condition, polling=10)
         time.sleep(rest)
     return np.array(page.evaluate("() => window.rbTimes"))
 

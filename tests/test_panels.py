@@ -103,6 +103,24 @@ def test_a_moving_panel_answers_with_coarser_steps_and_exactly_at_rest(all_panel
     panel.reset()
 
 
+def test_an_error_of_the_exact_crossing_is_said_when_the_panel_rests():
+    def compute(case, progress):
+        if case.settings.time_step < 2e-3 and case.settings.speed > 20.0:
+            raise RuntimeError("only the exact one fails")
+
+    control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
+    case = rb.case("paper").replace({"run.time_step": None})
+    panel = panels.Panel(case, [control], [["a"]], lambda *_: None, lambda *_: "", compute=compute, rough=True)
+
+    async def work():
+        panel.sliders["speed"].value = 25.0
+        assert panel.error is None
+        await asyncio.sleep(1.5)
+
+    asyncio.run(work())
+    assert "only the exact one fails" in panel.trouble.value
+
+
 @pytest.mark.parametrize("loads", ["condensed", "wheels"])
 @pytest.mark.parametrize("speed", [20.0, 37.0, 60.0])
 def test_coarser_steps_are_close_to_the_exact_ones(all_panels, speed, loads):

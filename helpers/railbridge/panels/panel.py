@@ -228,8 +228,9 @@ class Panel:
             self._say(*result, values)  # works out what the picture needs, which results keep
 
         def done(task: asyncio.Future) -> None:
-            if not task.cancelled() and task.exception() is None and move == self._moves:
-                self._show()
+            stale = task.cancelled() or isinstance(task.exception(), _StaleError)
+            if not stale and move == self._moves:
+                self._show()  # from the results kept; what went wrong goes wrong again, and is said
 
         loop.run_in_executor(None, work).add_done_callback(done)
 

@@ -241,8 +241,11 @@ def _fit(ax: Axes) -> None:
             continue
         low, high = float(values.min()), float(values.max())
         start, stop = get()
-        if ax.get_gid() == "live, held" and start <= low and high <= stop and (log or high - low > 0.25 * (stop - start)):
-            continue
+        if ax.get_gid() == "live, held":
+            if start <= low and high <= stop and (log or high - low > 0.12 * (stop - start)):
+                continue
+            if not log and not along:
+                low, high = 1.2 * low, 1.2 * high  # and a little room, so that the next ones fit as well
         # Places along the track stay the same whatever is moved.
         put((low, high) if along and ax.get_xlabel() == ALONG else _round_limits(low, high, log, along))
 
