@@ -181,7 +181,7 @@ def test_assurance_criterion():
 
 
 def test_speed():
-    """Fifteen modes of a deck-sized shell within the five seconds that were asked for (of the processor: others may use the machine)."""
+    """Fifteen modes of a deck-sized shell within the five seconds that were asked for, of the processor."""
     s = tube(
         5.0, 2.0, 0.3, 36.0, 60, sides=6, pads=tuple(Pad(x, 0.6, i, 0.0, ("x", "y", "z")) for x in (0.3, 35.7) for i in (12, 18))
     )
