@@ -356,7 +356,14 @@ def test_schema_knows_every_key_the_loader_accepts():
     assert known_keys([], {}) == set(SCHEMA["properties"])
     for table in ("run", "output", "track"):
         assert known_keys([table], {}) == _properties(table)
-    assert known_keys(["deck"], {}) | {"file"} == _properties("deck")
+    plates = {"slab_width": 6.0, "slab_thickness": 0.2, "depth": 1.0, "web_thickness": 0.2, "web_spacing": 3.0}
+    plates |= {"bottom_thickness": 0.2, "youngs_modulus": 3e10}
+    boxed = {"length": 12.0, "box": plates, "damping": {"modal": 0.02}, "bearing": [{"x": 0.0, "fixed": "x y z"}]}
+    assert known_keys(["deck"], {}) | known_keys(["deck"], {"deck": boxed}) | {"file"} == _properties("deck")
+    assert known_keys(["deck", "box"], {"deck": boxed}) == _properties("box")
+    assert known_keys(["deck", "bearing", 0], {"deck": boxed}) == _properties("pads")
+    held = {**boxed, "bearing": [], "model": "shell", "mesh": {}}
+    assert known_keys(["deck", "mesh"], {"deck": held}) == _properties("mesh")
     assert known_keys(["deck", "section"], {"deck": own}) == _properties("section")
     assert known_keys(["deck", "bearing", 0], {"deck": {**own, "bearing": [{"x": 0.0, "fixed": "z"}]}}) == _properties("bearing")
     damping = [{"modal": 0.02}, {"ratio": 0.03, "frequencies_hz": [1.0, 2.0]}]

@@ -626,8 +626,11 @@ def box_from_table(name: str, content: dict[str, Any]) -> Box:
 
 def _pads(here: str, raw: Any) -> Pads:
     given = inputs.table(here, raw)
-    inputs.keys(here, given, [f.name for f in fields(Pads)], ["x", "fixed"])
-    fixed = given["fixed"].split() if isinstance(given["fixed"], str) else given["fixed"]
+    inputs.keys(here, given, [f.name for f in fields(Pads)], ["x"])
+    fixed = given.get("fixed", [])
+    fixed = fixed.split() if isinstance(fixed, str) else fixed
     if not isinstance(fixed, list):
         raise InputError(f"{here}: fixed", given["fixed"], "must list some of x y z")
+    if not fixed and not given.get("stiffness"):
+        raise InputError(f"{here}: fixed", None, "is missing", "Say what the pads hold, here or by stiffness")
     return Pads(**(given | {"fixed": tuple(fixed)}))
