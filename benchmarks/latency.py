@@ -63,9 +63,11 @@ WATCH = """root => {
     document.addEventListener('keydown', () => { pressed = performance.now(); }, true);
     new MutationObserver(() => {
         const image = root.querySelector('img');
-        if (pressed === null || image === null || image.src === last) return;
+        if (image === null || image.src === last) return;
+        last = image.src;
+        if (pressed === null) return;
         const start = pressed;
-        [pressed, last] = [null, image.src];
+        pressed = null;
         image.decode().catch(() => null).then(
             () => requestAnimationFrame(() => window.rbTimes.push(performance.now() - start)));
     }).observe(root, {subtree: true, childList: true, attributes: true, attributeFilter: ['src']});
