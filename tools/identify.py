@@ -37,8 +37,8 @@ right = -2.4
 [[bearing]]                         # pads under both webs
 x = 0.0
 fixed = "y z"
-stiffness = {{ x = {spring:.6g} }}      # N/m each
-drop = {drop:g}                          # m below the box, point of rotation
+stiffness = {{ x = {spring:.6g} }}          # N/m each
+drop = {drop:g}                            # m below the box, point of rotation
 
 [[bearing]]
 x = 36.0
