@@ -11,10 +11,10 @@ BIN := .venv/bin
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help env lab app test test-browser reproduce identify notebooks site lint format bench lock clean
+.PHONY: help env lab app test test-browser reproduce identify notebooks site lint format bench latency lock clean
 
 help:  ## list these targets
-	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 21
+	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 22
 
 env:  ## create or update .venv (every target below does this first)
 	@$(PYTHON) tools/bootstrap.py
@@ -34,7 +34,7 @@ test-browser: env  ## open every panel notebook and the app in a real Chromium a
 reproduce: env  ## run the paper's case: printed, ours, difference; writes build/reproduction.json
 	$(BIN)/python -m railbridge.paper $(ARGS)
 
-identify: env  ## fit the dimensions of the paper's missing Figure 6 (up to 10 minutes); stores data/identification
+identify: env  ## fit the dimensions of the missing Figure 6 (up to 10 minutes)
 	$(BIN)/python tools/identify.py $(ARGS)
 
 notebooks: env  ## execute all notebooks and store their outputs (the only way outputs are stored)
@@ -51,6 +51,9 @@ format: env  ## put the code into the one style that lint asks for
 
 bench: env  ## time the paper's case and how the time grows with the number of cars
 	$(BIN)/python benchmarks/bench.py $(ARGS)
+
+latency: env  ## time sliders from key press to new picture in a real Chromium
+	$(BIN)/python benchmarks/latency.py $(ARGS)
 
 lock:  ## write requirements.lock from pyproject.toml (ARGS=--upgrade for newer versions)
 	$(PYTHON) tools/bootstrap.py --lock $(ARGS)
