@@ -19,7 +19,7 @@ from .inputs import InputError
 __all__ = ["MANIFEST", "Copy", "contents", "place", "plan", "stage"]
 
 MANIFEST = ".railbridge-copies.json"
-PAGES = ("README.md", "LICENSE-notebooks.md", "docs/case.md", "docs/crossing.png")
+PAGES = ("README.md", "LICENSE-notebooks.md", "docs/case.md", "docs/exchange.md", "docs/crossing.png")
 """What the notebooks lead to, besides each other and the data files."""
 
 
