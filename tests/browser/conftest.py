@@ -7,9 +7,9 @@ import secrets
 import pytest
 from chromium import NoBrowser, Record, running
 from served import NOTEBOOKS, ROOT, copy_without_outputs, jupyterlab
+from waiting import PATIENCE
 
 KEPT = ROOT / "build" / "browser"
-PATIENCE = 60_000  # ms, for one thing to happen; a notebook runs in 5 to 15 s on two cores
 WINDOW = {"width": 1280, "height": 900}
 
 
@@ -49,7 +49,7 @@ def record():
 @pytest.fixture
 def page(browser, record, request):
     context = browser.new_context(viewport=WINDOW)
-    context.set_default_timeout(PATIENCE)
+    context.set_default_timeout(1e3 * PATIENCE)
     record.follow(context)
     page = context.new_page()
     yield page

@@ -1,5 +1,7 @@
 """A notebook in JupyterLab: opened, run, asked what it shows."""
 
+from waiting import wait_in
+
 # The notebook by its path: which widget is the current one changes while the page puts itself together.
 FIND = """window.rbNotebook = path => [...(window.jupyterapp?.shell.widgets('main') ?? [])]
     .find(widget => widget.context?.path === path && !widget.isDisposed);
@@ -61,8 +63,8 @@ class NotebookOnPage:
 
     def _wait(self, condition):
         try:
-            self.page.wait_for_function(condition, arg=self.path, polling=200)
-        except Exception as error:
+            wait_in(self.page, condition, self.path)
+        except TimeoutError as error:
             error.add_note(f"{self.path}: kernel {self.page.evaluate(STATE, self.path)}")
             raise
 
