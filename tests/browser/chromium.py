@@ -1,6 +1,7 @@
 """The installed Chromium, and what its pages do: every request, every console line."""
 
 import os
+import re
 import shutil
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -50,11 +51,18 @@ def running():
             browser.close()
 
 
+# What a kernel says of a callback that raises or warns reaches no cell; it is in the messages that the page receives.
+COMPLAINT = re.compile(rb'"name":\s*"stderr",\s*"text":\s*"((?:[^"\\]|\\.)*)"|"ename":\s*"((?:[^"\\]|\\.)*)"')
+# JupyterLab greets the widgets of a kernel that has not loaded ipywidgets yet.
+HARMLESS = "No such comm"
+
+
 @dataclass
 class Record:
-    """What a page asked for and wrote."""
+    """What a page asked for, what it wrote, and what kernels complained of."""
 
     requests: list = field(default_factory=list)
+    kernel: list = field(default_factory=list)
     console: list = field(default_factory=list)
     uncaught: list = field(default_factory=list)
 
@@ -62,7 +70,16 @@ class Record:
         context.on("request", lambda request: self.requests.append(request.url))
         context.on("console", lambda message: self.console.append(f"{message.type}: {message.text}"))
         context.on("weberror", lambda error: self.uncaught.append(str(error.error)))
-        context.on("page", lambda page: page.on("websocket", lambda socket: self.requests.append(socket.url)))
+        context.on("page", lambda page: page.on("websocket", self._listen))
+
+    def _listen(self, socket):
+        self.requests.append(socket.url)
+        socket.on("framereceived", self._read)
+
+    def _read(self, frame):
+        frame = frame if isinstance(frame, bytes) else frame.encode()
+        texts = [(said or raised).decode(errors="replace") for said, raised in COMPLAINT.findall(frame)]
+        self.kernel += [text for text in texts if not text.startswith(HARMLESS)]
 
     @property
     def left(self):

@@ -63,7 +63,7 @@ def keep(test, page, record):
     KEPT.mkdir(parents=True, exist_ok=True)
     name = re.sub(r"[^\w-]+", "_", test.name).strip("_")
     page.screenshot(path=KEPT / f"{name}.png")
-    lines = [*record.console, "", "uncaught:", *record.uncaught, "", "requests:", *record.requests]
+    lines = [*record.console, "", "uncaught:", *record.uncaught, "", "kernel:", *record.kernel, "", "requests:", *record.requests]
     for server in (value for value in test.funcargs.values() if hasattr(value, "said")):
         lines += ["", f"server {server.url}:", server.said()]
     (KEPT / f"{name}.log").write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -21,7 +21,7 @@ STATE = """async root => {
     }
 }"""
 # A state counts once it is exact and has stood for QUIET milliseconds.
-QUIET = 300
+QUIET = 150
 SETTLED = f"""async ([root, accept]) => {{
     const now = await ({STATE})(root);
     if (now === null) return false;

@@ -22,3 +22,4 @@ def test_explorer_follows_its_sliders(page, record, explorer):
     assert page.locator(".jp-InputArea-editor:visible, .jp-CodeMirrorEditor:visible").count() == 0
     assert record.left == []
     assert record.uncaught == []
+    assert record.kernel == []

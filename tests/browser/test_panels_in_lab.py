@@ -28,6 +28,7 @@ def test_panel_follows_its_sliders(name, page, record, clean_lab):
     assert notebook.complaints() == []
     assert record.left == []
     assert record.uncaught == []
+    assert record.kernel == []
     assert "Traceback" not in clean_lab.said()[written:]
 
 
