@@ -1,8 +1,8 @@
 r"""Which box could Figure 6 have shown? Dimensions whose shell comes closest to the printed frequencies.
 
 The only place of the suite where numbers are fitted. Figure 6 (section and properties) is missing; the deck's 15 natural
-frequencies are printed (Table 2), and Table 4 fixes the mass per metre within about 10 %. Seventeen numbers cannot fix
-fifteen unknowns that act alike, so the result is *one box that fits*, identified and not known; the singular values of the
+frequencies are printed (Table 2), and Table 4 fixes the mass per metre within about 10 %. Sixteen numbers cannot fix
+sixteen unknowns that act alike, so the result is *one box that fits*, identified and not known; the singular values of the
 sensitivities say which combinations of dimensions the data fix and which they leave open.
 
 *Pairing.* By shape, not by order: five modes of the deck as a whole are found by how much of their kinetic energy is a
