@@ -269,3 +269,8 @@ def test_boxes_load_by_name(tmp_path):
     with pytest.raises(InputError, match="Did you mean"):
         rb.box("viaduct36_identifed")
     assert box_from_table("test", FILE) == replace(box(tracks={"left": 2.4}), bearings=(Pads(0.0, ("x", "y", "z")), Pads(36.0)))
+
+
+def test_pads_that_miss_the_end_by_rounding_stand_on_it():
+    pads = (Pads(0.0, ("x", "y", "z")), Pads(36.0 * (1 + 1e-10), ("y", "z")))
+    assert replace(rb.box("viaduct36_identified"), bearings=pads).bearings[1].x == 36.0

@@ -11,7 +11,8 @@ import railbridge as rb
 from railbridge.summary import ENVELOPE, QUANTITIES, bytes_needed, histories, summarize, to_json
 
 KEYS = {
-    "vehicle_frequencies_hz", "deck_frequencies_hz", "deck_mode_names", "remarks", "converged", "iterations", "changes", "deviation_percent",
+    "vehicle_frequencies_hz", "deck_frequencies_hz", "deck_mode_names", "remarks", "converged", "iterations", "changes",
+    "deviation_percent",
     "run", "wheel_force_z", "wheel_unloading", "points", "envelope", "reactions", "car_body", "self_weight",
 }  # fmt: skip
 COARSE = {"train.cars": 1, "run.loads": "wheels", "run.time_step": 4e-3, "run.tolerance": 1e-6, "run.tail": 0.3}

@@ -208,10 +208,18 @@ class Box:
             object.__setattr__(self, "bearings", held)
         for i, pads in enumerate(self.bearings, start=1):
             here = f"{where}: bearing {i}"
-            inputs.number(f"{here}: x", pads.x, least=0.0, most=self.length, unit="m", remedy="It must lie on the deck")
+            slack, remedy = 1e-6 * self.length, "It must lie on the deck"
+            inputs.number(f"{here}: x", pads.x, least=-slack, most=self.length + slack, unit="m", remedy=remedy)
             pads.check(here)
+        object.__setattr__(self, "bearings", tuple(self._on_line(pads) for pads in self.bearings))
         for key, y in inputs.table(f"{where}: tracks", self.tracks).items():
             inputs.number(f"{where}: tracks.{key}", y, least=-self.slab_width / 2, most=self.slab_width / 2, unit="m")
+
+    def _on_line(self, pads: Pads) -> Pads:
+        """Move pads that miss the end of a span by rounding only onto it."""
+        lines = np.concatenate([[0.0], np.cumsum(self.spans)])
+        nearest = float(lines[np.argmin(np.abs(lines - pads.x))])
+        return replace(pads, x=nearest) if abs(nearest - pads.x) <= 1e-6 * self.length else pads
 
     # ------------------------------------------------------------------ geometry
 

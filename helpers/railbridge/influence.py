@@ -58,7 +58,7 @@ class BeamRecovery:
         return self._cached((quantity, float(x)), self._section, quantity, x)
 
     def reaction(self, quantity: str, support: float) -> Line | None:
-        """Return the line of a reaction on the deck at the bearing line `support` (m): all bearings there, about the deck axis."""
+        """Return the line of a reaction on the deck at the bearing line `support` (m): all bearings there, about the axis."""
         inputs.choice("quantity", quantity, REACTION_QUANTITIES)
         return self._cached((quantity, float(support), "line"), self._reaction, quantity, support)
 
