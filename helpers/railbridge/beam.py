@@ -13,7 +13,7 @@ import numpy as np
 
 from . import inputs
 from .bearings import FARTHEST, FIXITIES, Bearing, free_motions
-from .deck import Deck, rayleigh_ratio
+from .deck import Deck, checked_damping, damping_ratios
 from .elements import FIELDS
 from .influence import BeamRecovery
 from .inputs import InputError
@@ -283,17 +283,14 @@ class Beam:
             See `Deck`.
         """
         wanted = inputs.integer("deck.modes", modes, least=1)
-        if np.isscalar(damping):
-            inputs.number("deck.damping", damping, least=0.0)
-        else:
-            damping = inputs.numbers("deck.damping", damping, count=2, least=0.0)
+        damping = checked_damping(damping)
         everything = self.modes
         excitable = np.flatnonzero(everything.excitable).tolist()
         if wanted > len(excitable):
             raise InputError("deck.modes", modes, f"the mesh has {len(excitable)} modes that loads excite", "Use more elements")
         kept = excitable[:wanted]
         frequencies = everything.frequencies_hz[kept]
-        ratios = np.full(wanted, damping) if np.isscalar(damping) else rayleigh_ratio(*damping, frequencies)
+        ratios = damping_ratios(damping, frequencies)
         return Deck(
             name=self.name,
             length=self.length,

@@ -15,7 +15,7 @@ import numpy as np
 
 from . import inputs
 from .beam import Beam, Bearing
-from .deck import Deck, rayleigh_ratio
+from .deck import Deck, checked_damping, damping_ratios
 from .inputs import InputError
 from .section import SectionProperties, refuse_crossing, section_properties
 from .shell import Pad, Plate, Shell, ShellModes, Strip, mac
@@ -493,13 +493,10 @@ class Box:
         slab. Section forces and reactions are not recovered (`recovery` is None), and modes are not corrected statically.
         """
         mesh = mesh or BoxMesh()
-        if np.isscalar(damping):
-            inputs.number("deck.damping", damping, least=0.0)
-        else:
-            damping = inputs.numbers("deck.damping", damping, count=2, least=0.0)
+        damping = checked_damping(damping)
         shell = self.shell(mesh)
         result = shell.modes(modes)
-        ratios = rayleigh_ratio(*damping, result.frequencies_hz) if not np.isscalar(damping) else np.full(modes, damping)
+        ratios = damping_ratios(damping, result.frequencies_hz)
         heads = mesh.cantilever, mesh.cantilever + mesh.slab
         return Deck(
             name=self.name,

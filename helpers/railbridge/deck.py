@@ -29,7 +29,7 @@ from .response import SampledResponse, oscillator
 
 __all__ = [
     "BEARING_QUANTITIES", "COMPONENTS", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
-    "PiecewiseCubic", "Recovery", "Stations", "rayleigh", "rayleigh_ratio",
+    "PiecewiseCubic", "Recovery", "Stations", "checked_damping", "damping_ratios", "rayleigh", "rayleigh_ratio",
 ]  # fmt: skip
 
 COMPONENTS = ("y", "z", "roll")
@@ -62,6 +62,20 @@ def rayleigh_ratio(alpha: float, beta: float, frequencies_hz: np.ndarray) -> np.
     """Return the damping ratio at each frequency (Hz)."""
     omega = 2 * np.pi * np.asarray(frequencies_hz, dtype=float)
     return alpha / (2 * omega) + beta * omega / 2
+
+
+def checked_damping(damping: Sequence[float] | float) -> Sequence[float] | float:
+    """Return (alpha, beta) of Rayleigh or one ratio for every mode, refused where it is neither."""
+    if np.isscalar(damping):
+        return inputs.number("deck.damping", damping, least=0.0)
+    return inputs.numbers("deck.damping", damping, count=2, least=0.0)
+
+
+def damping_ratios(damping: Sequence[float] | float, frequencies_hz: np.ndarray) -> np.ndarray:
+    """Return the ratio of each mode from (alpha, beta) of Rayleigh or from one ratio."""
+    if np.isscalar(damping):
+        return np.full(len(frequencies_hz), damping)
+    return rayleigh_ratio(*damping, frequencies_hz)
 
 
 @dataclass(frozen=True, eq=False)
