@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 import railbridge as rb
 from frame import RIGID, Frame
-from railbridge.bearings import FIXITIES, null_space
+from railbridge.bearings import FIXITIES, null_space, on_deck, tables
 
 L, M, E = 36.0, 12e3, 35e9
 EI, EIZ, GJ, EA, INERTIA = E * 2.553, E * 25.53, E / 2.4 * 5.59, E * 4.8, 2500 * 28.083
@@ -439,3 +439,23 @@ def test_modes_on_bearings_off_the_axis_converge_with_the_mesh():
     assert np.all(coarse >= middle) and np.all(middle >= fine)  # from above, as they must
     assert np.abs(middle - fine).max() < np.abs(coarse - middle).max() / 10
     assert middle == pytest.approx(fine, rel=2e-4)
+
+
+def test_a_bearing_stands_on_the_end_it_misses_by_rounding():
+    """On the end itself, not beside it, for beam and box alike; a millimetre off is another place, a metre off no deck's."""
+    ends = np.array([0.0, 12.0, 36.0])
+    assert [on_deck("b", x, ends) for x in (-1e-9, 12.0 + 1e-9, 36.0 + 3e-5)] == [0.0, 12.0, 36.0]
+    assert on_deck("b", 12.001, ends) == 12.001
+    with pytest.raises(rb.InputError, match="b: x = 37.0: .*It must lie on the deck"):
+        on_deck("b", 37.0, ends)
+
+
+def test_tables_of_bearings_are_read_alike():
+    rows = [{"x": 0.0, "fixed": "x y"}, {"x": 3.0, "stiffness": {"z": 1e9}}]
+    assert tables("deck d", rows, ["fixed", "stiffness"]) == [
+        ("deck d: bearing 1", {"x": 0.0, "fixed": ("x", "y")}),
+        ("deck d: bearing 2", {"x": 3.0, "fixed": (), "stiffness": {"z": 1e9}}),
+    ]
+    for content, says in ((rows[0], "list of tables"), ([{"fixed": "x"}], "x: is missing"), ([{"x": 1.0}], "holds, here or by")):
+        with pytest.raises(rb.InputError, match=says):
+            tables("deck d", content, ["fixed"])

@@ -6,26 +6,35 @@ Deck files are read in `decks`. The elements are in `elements`, their assembly a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from . import inputs
-from .bearings import FARTHEST, FIXITIES, Bearing, free_motions
+from .bearings import FARTHEST, FIXITIES, Bearing, free_motions, on_deck
 from .deck import Deck, checked_damping, damping_ratios
 from .elements import FIELDS
 from .influence import BeamRecovery
 from .inputs import InputError
 from .mesh import BeamModes, Mesh
 
-__all__ = ["FIXITIES", "Beam", "BeamModes", "Bearing"]
+__all__ = ["FIXITIES", "Beam", "BeamModes", "Bearing", "checked_spans"]
 
 _SHORTEST = 1e-3
 """Shortest span or distance of bearings as a share of the length: the deck's lowest frequency then keeps five digits."""
 
 
 _SWITCHES = ("shear_stiffness_vertical", "shear_stiffness_lateral", "rotary_inertia_vertical", "rotary_inertia_lateral")
+
+
+def checked_spans(where: str, spans: Sequence[float]) -> tuple[float, ...]:
+    """Return the lengths of 1 to 30 spans, m, refused where they are none; `where` names the deck."""
+    found = inputs.numbers(f"{where}: spans", spans, above=0.0, unit="m")
+    if not 1 <= len(found) <= 30:
+        raise InputError(f"{where}: spans", list(spans), "must hold 1 to 30 spans")
+    return tuple(found.tolist())
 
 
 def _where(name: str) -> str:
@@ -90,10 +99,7 @@ class Beam:
 
     def __post_init__(self) -> None:
         where = _where(self.name)
-        spans = inputs.numbers(f"{where}: spans", self.spans, above=0.0, unit="m")
-        if not 1 <= len(spans) <= 30:
-            raise InputError(f"{where}: spans", list(self.spans), "must hold 1 to 30 spans")
-        object.__setattr__(self, "spans", tuple(spans.tolist()))
+        object.__setattr__(self, "spans", checked_spans(where, self.spans))
         inputs.number(f"{where}: mass", self.mass, above=0.0, unit="kg/m")
         inputs.number(f"{where}: bending_stiffness_vertical", self.bending_stiffness_vertical, above=0.0, unit="N m2")
         for key in ("bending_stiffness_lateral", "torsional_stiffness", "axial_stiffness", "polar_inertia"):
@@ -112,14 +118,13 @@ class Beam:
             raise InputError(f"{where}: continuous", self.continuous, "must be true or false")
         if not self.bearings:
             object.__setattr__(self, "bearings", self._usual_bearings())
+        under: list[Bearing] = []
         for i, bearing in enumerate(self.bearings, start=1):
             here = f"{where}: bearing {i}"
-            slack = 1e-6 * self.length
-            remedy = "x runs along the deck from its start"
-            inputs.number(f"{here}: x", bearing.x, least=-slack, most=self.length + slack, unit="m", remedy=remedy)
+            bearing = replace(bearing, x=on_deck(here, bearing.x, self._span_ends))
             bearing.check(here)
             self._refuse_missing_stiffness(here, bearing)
-        under = [part for i, b in enumerate(self.bearings, start=1) for part in self._under_spans(f"{where}: bearing {i}", b)]
+            under += self._under_spans(here, bearing)
         object.__setattr__(self, "bearings", tuple(under))
         self._refuse_close_lines(where)
         if self.elements is not None:
@@ -183,11 +188,7 @@ class Beam:
         )
 
     def _under_spans(self, here: str, bearing: Bearing) -> list[Bearing]:
-        """Move a bearing that misses the end of a span by rounding only onto it; put one under each span where two meet."""
-        nearest = int(np.argmin(np.abs(self._span_ends - bearing.x)))
-        at_end = abs(self._span_ends[nearest] - bearing.x) <= 1e-6 * self.length
-        if at_end:
-            bearing = replace(bearing, x=float(self._span_ends[nearest]))
+        """Put one bearing under each span where two meet."""
         if self.continuous:
             if bearing.span is not None:
                 raise InputError(f"{here}: span", bearing.span, "can only be told of simple spans", "Or set continuous = false")

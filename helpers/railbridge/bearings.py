@@ -14,13 +14,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from . import inputs
 from .inputs import InputError
 
-__all__ = ["FIXITIES", "Bearing", "free_motions", "null_space"]
+__all__ = ["FIXITIES", "Bearing", "free_motions", "null_space", "on_deck", "tables"]
 
 FIXITIES = ("x", "y", "z", "roll", "pitch", "yaw")
 FARTHEST = 50.0
@@ -28,6 +29,8 @@ FARTHEST = 50.0
 STIFFEST = 1e16
 """N/m and N m/rad: beyond this a spring would cost the modes their digits."""
 _TINY = 1e-9
+_SLACK = 1e-6
+"""Share of the deck's length by which a bearing may miss the end of a span and still stands on it: rounding."""
 
 
 @dataclass(frozen=True)
@@ -108,6 +111,65 @@ class Bearing:
             "pitch": np.array([0.0, 0.0, 0.0, 0.0, 0.0, -1.0]),
             "yaw": np.array([0.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
         }[freedom]
+
+
+def on_deck(here: str, x: float, ends: np.ndarray) -> float:
+    """Return the place of a bearing (m): x, or the end of a span that x misses by rounding only.
+
+    Parameters
+    ----------
+    here : str
+        Names the bearing.
+    x : float
+        m.
+    ends : ndarray
+        Ends of the spans, m, ascending from 0.
+
+    Raises
+    ------
+    InputError
+        Off the deck.
+    """
+    slack = _SLACK * float(ends[-1])
+    remedy = "It must lie on the deck, x runs along it from its start"
+    x = inputs.number(f"{here}: x", x, least=-slack, most=float(ends[-1]) + slack, unit="m", remedy=remedy)
+    nearest = float(ends[np.argmin(np.abs(ends - x))])
+    return nearest if abs(nearest - x) <= slack else x
+
+
+def tables(where: str, given: Any, known: Sequence[str], fixities: Sequence[str] = FIXITIES) -> list[tuple[str, dict[str, Any]]]:
+    """Return each table of a deck file's ``[[bearing]]`` with its name for messages; `fixed` as a tuple, not yet checked.
+
+    Parameters
+    ----------
+    where : str
+        Of the deck.
+    given : list of tables
+    known : sequence of str
+        Keys a table may have; x is needed.
+    fixities : sequence of str
+        What may be held.
+
+    Raises
+    ------
+    InputError
+        No list of tables, a key unknown or missing, or a bearing that holds nothing.
+    """
+    if not isinstance(given, list):
+        raise InputError(f"{where}: bearing", given, "must be a list of tables", "Write [[bearing]] with two brackets")
+    result = []
+    for i, raw in enumerate(given, start=1):
+        here = f"{where}: bearing {i}"
+        table = inputs.table(here, raw)
+        inputs.keys(here, table, known, ["x"])
+        fixed = table.get("fixed", [])
+        fixed = fixed.split() if isinstance(fixed, str) else fixed
+        if not isinstance(fixed, list):
+            raise InputError(f"{here}: fixed", table["fixed"], "must list some of " + " ".join(fixities))
+        if not fixed and not table.get("stiffness"):
+            raise InputError(f"{here}: fixed", None, "is missing", "Say what the bearing holds, here or by stiffness")
+        result.append((here, table | {"fixed": tuple(fixed)}))
+    return result
 
 
 def null_space(rows: np.ndarray) -> np.ndarray:

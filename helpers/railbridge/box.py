@@ -8,19 +8,23 @@ from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, field, fields, replace
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from . import inputs
-from .beam import Beam, Bearing
+from .beam import Beam, Bearing, checked_spans
+from .bearings import on_deck, tables
 from .deck import Deck, checked_damping, damping_ratios
 from .inputs import InputError
 from .section import SectionProperties, refuse_crossing, section_properties
 from .shell import Pad, Plate, Shell, ShellModes, Strip, mac
 
 __all__ = ["Box", "BoxMesh", "Pads", "beam_motions", "box", "box_from_table", "shell_against_beam"]
+
+_DIRECTIONS = ("x", "y", "z")
 
 
 @dataclass(frozen=True)
@@ -53,9 +57,9 @@ class Pads:
     def check(self, here: str) -> None:
         """Refuse unknown or doubly held directions and sizes out of range; `here` names the bearing line."""
         for name in self.fixed:
-            inputs.choice(f"{here}: fixed", name, ("x", "y", "z"))
+            inputs.choice(f"{here}: fixed", name, _DIRECTIONS)
         for name, value in inputs.table(f"{here}: stiffness", self.stiffness).items():
-            inputs.choice(f"{here}: stiffness", name, ("x", "y", "z"))
+            inputs.choice(f"{here}: stiffness", name, _DIRECTIONS)
             inputs.number(f"{here}: stiffness.{name}", value, above=0.0, most=1e14, unit="N/m")
             if name in self.fixed:
                 raise InputError(f"{here}: stiffness.{name}", value, "is fixed, too", "Give one of both")
@@ -165,10 +169,7 @@ class Box:
 
     def __post_init__(self) -> None:
         where = self.where
-        spans = inputs.numbers(f"{where}: spans", self.spans, above=0.0, unit="m")
-        if not 1 <= len(spans) <= 30:
-            raise InputError(f"{where}: spans", list(self.spans), "must hold 1 to 30 spans")
-        object.__setattr__(self, "spans", tuple(spans.tolist()))
+        object.__setattr__(self, "spans", checked_spans(where, self.spans))
         for key, default in (
             ("bottom_spacing", self.web_spacing),
             ("root_thickness", self.slab_thickness),
@@ -202,24 +203,14 @@ class Box:
         inputs.number(f"{where}: poisson_ratio", self.poisson_ratio, above=-1.0, most=0.49)
         inputs.number(f"{where}: density", self.density, above=0.0, unit="kg/m3")
         self._refuse_geometry(where)
-        if not self.bearings:
-            lines = np.concatenate([[0.0], np.cumsum(self.spans)]).tolist()
-            held = tuple(Pads(x, ("x", "y", "z") if i == 0 else ("y", "z")) for i, x in enumerate(lines))
-            object.__setattr__(self, "bearings", held)
-        for i, pads in enumerate(self.bearings, start=1):
-            here = f"{where}: bearing {i}"
-            slack, remedy = 1e-6 * self.length, "It must lie on the deck"
-            inputs.number(f"{here}: x", pads.x, least=-slack, most=self.length + slack, unit="m", remedy=remedy)
+        held = self.bearings or [Pads(x, ("y", "z") if i else ("x", "y", "z")) for i, x in enumerate(self._span_ends.tolist())]
+        named = [(f"{where}: bearing {i}", pads) for i, pads in enumerate(held, start=1)]
+        for here, pads in named:
             pads.check(here)
-        object.__setattr__(self, "bearings", tuple(self._on_line(pads) for pads in self.bearings))
+        placed = tuple(replace(pads, x=on_deck(here, pads.x, self._span_ends)) for here, pads in named)
+        object.__setattr__(self, "bearings", placed)
         for key, y in inputs.table(f"{where}: tracks", self.tracks).items():
             inputs.number(f"{where}: tracks.{key}", y, least=-self.slab_width / 2, most=self.slab_width / 2, unit="m")
-
-    def _on_line(self, pads: Pads) -> Pads:
-        """Move pads that miss the end of a span by rounding only onto it."""
-        lines = np.concatenate([[0.0], np.cumsum(self.spans)])
-        nearest = float(lines[np.argmin(np.abs(lines - pads.x))])
-        return replace(pads, x=nearest) if abs(nearest - pads.x) <= 1e-6 * self.length else pads
 
     # ------------------------------------------------------------------ geometry
 
@@ -232,6 +223,10 @@ class Box:
     def length(self) -> float:
         """Between the outer bearing lines, m."""
         return float(sum(self.spans))
+
+    @cached_property
+    def _span_ends(self) -> np.ndarray:
+        return np.concatenate([[0.0], np.cumsum(self.spans)])
 
     @property
     def _head_thickness(self) -> float:
@@ -449,16 +444,14 @@ class Box:
         return replace(shell, line_masses=masses)
 
     def _stations(self, mesh: BoxMesh) -> np.ndarray:
-        lines = np.concatenate([[0.0], np.cumsum(self.spans)])
-        places = [np.linspace(a, b, mesh.along + 1) for a, b in zip(lines[:-1], lines[1:], strict=True)]
+        places = [np.linspace(a, b, mesh.along + 1) for a, b in pairwise(self._span_ends)]
         ends = [[-self.overhang], [self.length + self.overhang]] if self.overhang else []
         return np.unique(np.round(np.concatenate([*places, *ends, self._diaphragm_places]), 9))
 
     @property
     def _diaphragm_places(self) -> np.ndarray:
         """Bearing lines, which may lie inside a span, too, and inner diaphragms, m."""
-        lines = np.concatenate([[0.0], np.cumsum(self.spans)])
-        inner = [np.linspace(a, b, self.inner_diaphragms + 2)[1:-1] for a, b in zip(lines[:-1], lines[1:], strict=True)]
+        inner = [np.linspace(a, b, self.inner_diaphragms + 2)[1:-1] for a, b in pairwise(self._span_ends)]
         return np.unique(np.round(np.concatenate([self._bearing_lines, *inner]), 9))
 
     @property
@@ -617,25 +610,11 @@ def box_from_table(name: str, content: dict[str, Any]) -> Box:
         raise InputError(f"{where}: length", content.get("length"), "give either length or spans")
     dimensions = inputs.table(f"{where}: box", content["box"])
     inputs.keys(f"{where}: box", dimensions, _DIMENSIONS, _NEEDED)
-    given = content.get("bearing", [])
-    if not isinstance(given, list):
-        raise InputError(f"{where}: bearing", given, "must be a list of tables", "Write [[bearing]] with two brackets")
+    held = tables(where, content.get("bearing", []), [f.name for f in fields(Pads)], _DIRECTIONS)
     return Box(
         name,
         content["spans"] if "spans" in content else [content["length"]],
-        bearings=tuple(_pads(f"{where}: bearing {i}", b) for i, b in enumerate(given, start=1)),
+        bearings=tuple(Pads(**pads) for _, pads in held),
         tracks=inputs.table(f"{where}: tracks", content.get("tracks", {})),
         **dimensions,
     )
-
-
-def _pads(here: str, raw: Any) -> Pads:
-    given = inputs.table(here, raw)
-    inputs.keys(here, given, [f.name for f in fields(Pads)], ["x"])
-    fixed = given.get("fixed", [])
-    fixed = fixed.split() if isinstance(fixed, str) else fixed
-    if not isinstance(fixed, list):
-        raise InputError(f"{here}: fixed", given["fixed"], "must list some of x y z")
-    if not fixed and not given.get("stiffness"):
-        raise InputError(f"{here}: fixed", None, "is missing", "Say what the pads hold, here or by stiffness")
-    return Pads(**(given | {"fixed": tuple(fixed)}))

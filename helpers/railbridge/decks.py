@@ -12,7 +12,7 @@ from typing import Any
 
 from . import exchange, inputs
 from .beam import Beam
-from .bearings import FARTHEST, FIXITIES, Bearing
+from .bearings import FARTHEST, Bearing, tables
 from .box import BoxMesh, box_from_table
 from .deck import Deck, rayleigh
 from .inputs import InputError
@@ -143,14 +143,14 @@ def bearings(where: str, given: Any, width: float | None = None) -> tuple[Bearin
     ------
     InputError
     """
-    if not isinstance(given, list):
-        raise InputError(f"{where}: bearing", given, "must be a list of tables", "Write [[bearing]] with two brackets")
-    result = tuple(_bearing(f"{where}: bearing {i}", b) for i, b in enumerate(given, start=1))
-    for i, b in enumerate(result, start=1):
-        if width is not None and abs(b.y) > width / 2:
+    result = []
+    for here, content in tables(where, given, ["fixed", "y", "z", "stiffness", "span"]):
+        bearing = _bearing(here, content)
+        if width is not None and abs(bearing.y) > width / 2:
             off = f"is off the deck, half width {width / 2:g} m"
-            raise InputError(f"{where}: bearing {i}: y", b.y, off, "Move the bearing below the deck, or correct the width")
-    return result
+            raise InputError(f"{here}: y", bearing.y, off, "Move the bearing below the deck, or correct the width")
+        result.append(bearing)
+    return tuple(result)
 
 
 def track_height(where: str, content: dict[str, Any]) -> float:
@@ -206,18 +206,10 @@ def _from_section(where: str, s: dict[str, Any], rotary: bool) -> dict[str, floa
     return result
 
 
-def _bearing(here: str, raw: Any) -> Bearing:
-    b = inputs.table(here, raw)
-    inputs.keys(here, b, ["fixed", "y", "z", "stiffness", "span"], ["x"])
-    fixed = b.get("fixed", [])
-    fixed = fixed.split() if isinstance(fixed, str) else fixed
-    if not isinstance(fixed, list):
-        raise InputError(f"{here}: fixed", b["fixed"], "must list some of " + " ".join(FIXITIES))
-    if not fixed and not b.get("stiffness"):
-        raise InputError(f"{here}: fixed", None, "is missing", "Say what the bearing holds, here or by stiffness")
+def _bearing(here: str, b: dict[str, Any]) -> Bearing:
     place = {key: inputs.number(f"{here}: {key}", b[key], unit="m") for key in ("x", "y", "z") if key in b}
     springs = inputs.table(f"{here}: stiffness", b.get("stiffness", {}))
-    bearing = Bearing(fixed=tuple(fixed), stiffness=springs, span=b.get("span"), **place)
+    bearing = Bearing(fixed=b["fixed"], stiffness=springs, span=b.get("span"), **place)
     bearing.check(here)
     return bearing
 
