@@ -18,14 +18,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from . import inputs
 from .inputs import InputError
-from .response import SampledResponse, oscillator
+from .response import SampledModes, sampled_modes
 
 __all__ = [
     "BEARING_QUANTITIES", "COMPONENTS", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
@@ -208,8 +209,15 @@ class Stations:
             values, slopes = self.tables[which]
             yield int(start), values[:, :count], slopes[:, :count]
 
-    def _component(self, c: int) -> slice:
-        return slice(*np.searchsorted(self.pairs[1], [c, c + 1]))
+    @cached_property
+    def components(self) -> tuple[slice, slice, slice]:
+        """Where the pairs of each component stand."""
+        return tuple(slice(*np.searchsorted(self.pairs[1], [c, c + 1])) for c in range(3))
+
+    def alike(self, stations: np.ndarray) -> list[np.ndarray]:
+        """Return which of some stations (numbers from 0) share a table: positions within `stations`, a group each."""
+        which = self.which[stations]
+        return [np.flatnonzero(which == table) for table in np.unique(which)]
 
     def modal_force(self, loads: Sequence[np.ndarray], modes: int, samples: int) -> np.ndarray:
         """Return the modal forces of all loads.
@@ -224,45 +232,68 @@ class Stations:
         -------
         ndarray, shape (modes, samples)
         """
-        total = np.zeros((modes, samples))
-        for (start, values, slopes), load in zip(self, loads, strict=True):
-            window = slice(start, start + values.shape[1])
-            for c in range(3):
-                pairs = self._component(c)
-                part = values[pairs] * load[c]
+        ordered = np.zeros((len(self.pairs[0]), samples))
+        for members in self.alike(np.arange(len(self.starts))):
+            values, slopes = self.tables[self.which[members[0]]]
+            load = np.zeros((max(len(loads[s]) for s in members), len(members), values.shape[1]))
+            for place, station in enumerate(members):
+                load[: len(loads[station]), place, : loads[station].shape[1]] = loads[station]
+            part = np.empty((len(ordered), *load.shape[1:]))
+            for c, pairs in enumerate(self.components):
+                np.multiply(values[pairs, None], load[c], out=part[pairs])
                 if len(load) == 5 and c < 2:
                     # A couple does work on the slope: M_z on v', and M_y on theta_y = -w'.
-                    part += slopes[pairs] * (load[4] if c == 0 else -load[3])
-                total[self.pairs[0][pairs], window] += part
+                    part[pairs] += slopes[pairs, None] * (load[4] if c == 0 else -load[3])
+            for place, station in enumerate(members):
+                start, count = self.starts[station], self.counts[station]
+                ordered[:, start : start + count] += part[:, place, :count]
+        total = np.zeros((modes, samples))
+        for pairs in self.components:
+            total[self.pairs[0][pairs]] += ordered[pairs]
         return total
 
-    @cached_property
-    def _stacked(self) -> list[list[np.ndarray]]:
-        """For each table and component (V slope, value): times (q, q') the rate is then one product."""
-        return [
-            [np.concatenate([self.speed * slopes[p], values[p]]) for p in map(self._component, range(3))]
-            for values, slopes in self.tables
-        ]
+    def ordered(self, state: np.ndarray) -> list[np.ndarray]:
+        """Return a modal state, shape (modes, samples), as `motion` takes it: the modes of y, of z and of roll."""
+        return [state[self.pairs[0][pairs]] for pairs in self.components]
 
-    def motion(self, q: np.ndarray, velocity: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Return what each station meets: y, z, roll of the deck and their total time derivatives, each shape (3, count)."""
-        states = [np.concatenate([q[m], velocity[m]]) for m in (self.pairs[0][self._component(c)] for c in range(3))]
-        result = []
-        for start, count, which in zip(self.starts, self.counts, self.which, strict=True):
-            moved, rate = np.empty((3, count)), np.empty((3, count))
-            for c, (state, table) in enumerate(zip(states, self._stacked[which], strict=True)):
-                half = len(state) // 2
-                window = state[:, start : start + count]
-                np.einsum("pt,pt->t", table[half:, :count], window[:half], out=moved[c])
-                np.einsum("pt,pt->t", table[:, :count], window, out=rate[c])
-            result.append((moved, rate))
-        return result
+    def motion(
+        self, q: Sequence[np.ndarray], velocity: Sequence[np.ndarray], stations: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return what stations that share a table meet: y, z, roll of the deck, and their total time derivatives.
+
+        Parameters
+        ----------
+        q, velocity : sequence of ndarray
+            As `ordered` returns them.
+        stations : ndarray of int, shape (s,)
+            Numbers from 0; see `alike`.
+
+        Returns
+        -------
+        moved, rate : ndarray, shape (3, s, samples of the longest)
+        """
+        values, slopes = self.tables[self.which[stations[0]]]
+        starts, count = self.starts[stations], int(self.counts[stations].max())
+        values, climb = values[:, :count], self.speed * slopes[:, :count]
+        moved, rate = np.empty((2, 3, len(stations), count))
+        for c, pairs in enumerate(self.components):
+            here, there = (_windows(state[c], starts, count) for state in (q, velocity))
+            np.einsum("pt,pst->st", values[pairs], here, out=moved[c])
+            np.einsum("pt,pst->st", values[pairs], there, out=rate[c])
+            rate[c] += np.einsum("pt,pst->st", climb[pairs], here)
+        return moved, rate
 
 
-@lru_cache(maxsize=1000)
-def _sampled_mode(omega: float, ratio: float, time_step: float) -> SampledResponse:
-    """Prepare a mode once for all crossings at one step."""
-    return oscillator(omega, ratio).sampled(time_step)
+def _windows(rows: np.ndarray, starts: np.ndarray, count: int) -> np.ndarray:
+    """Return `count` samples of every row from each start on, (rows, starts, count): a view where starts are evenly spaced."""
+    missing = int(starts[-1]) + count - rows.shape[1]
+    if missing > 0:
+        rows = np.pad(rows, ((0, 0), (0, missing)))
+    windows = sliding_window_view(rows, count, axis=1)
+    steps = np.diff(starts)
+    if len(starts) == 1 or (steps[0] > 0 and np.all(steps == steps[0])):
+        return windows[:, starts[0] : starts[-1] + 1 : steps[0] if len(steps) else 1]
+    return windows[:, starts]
 
 
 @dataclass(frozen=True, eq=False)
@@ -363,10 +394,9 @@ class Deck:
             tables.append(tuple(np.ascontiguousarray(self.shapes(x, d)[:, pairs[0], pairs[1]].T) for d in (0, 1)))
         return Stations(starts, np.maximum(counts, 0), tuple(tables), which, pairs, speed)
 
-    def sampled(self, time_step: float) -> list[SampledResponse]:
-        """Prepare every mode for one time step (s); each takes its modal force and gives coordinate and velocity."""
-        omega = 2 * np.pi * self.frequencies_hz
-        return [_sampled_mode(w, z, time_step) for w, z in zip(omega.tolist(), self.damping_ratios.tolist(), strict=True)]
+    def sampled(self, time_step: float) -> SampledModes:
+        """Prepare the modes for one time step (s); they take modal forces and give coordinates and velocities."""
+        return sampled_modes(2 * np.pi * self.frequencies_hz, self.damping_ratios, time_step)
 
     def acceleration(self, q: np.ndarray, velocity: np.ndarray, modal_force: np.ndarray) -> np.ndarray:
         """Return modal accelerations from the equation of motion."""

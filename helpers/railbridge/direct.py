@@ -35,7 +35,7 @@ def direct(coupling: Coupling, progress: Callable[[str], None] | None = None) ->
     """
     if not coupling.vehicles:
         return coupling.at_rest()
-    modes = len(coupling.modes)
+    modes = len(coupling.deck.frequencies_hz)
     deck = _Stepper(_deck_system(coupling), coupling.settings.time_step)
     cars = [_Car(coupling, car) for car in range(len(coupling.windows))]
     steps = max(w.stop for w in coupling.windows)
@@ -105,7 +105,7 @@ class _Car:
         """Return shape and V times slope under every wheel and direction, shape (n, 2 wheels, modes); zero off the deck."""
         axles, contacts = coupling.axles, coupling.train.vehicles[car].contacts
         mode, component = axles.pairs
-        shape = self.window.stop - self.window.start, 2 * len(contacts), len(coupling.modes)
+        shape = self.window.stop - self.window.start, 2 * len(contacts), len(coupling.deck.frequencies_hz)
         result = np.zeros((2, *shape))
         height = coupling.deck.track_height
         for i, (axle, contact) in enumerate(zip(coupling.axle_of[car], contacts, strict=True)):

@@ -21,10 +21,11 @@ import numpy as np
 
 from .deck import Deck, Stations
 from .inputs import frozen
-from .response import SampledResponse
+from .response import SampledModes, SampledResponse
 from .settings import Settings
 from .track import Track
 from .train import AxleTrain, Train
+from .vehicle import Vehicle
 
 __all__ = ["Coupling", "DeckState", "FixedPoint", "iterate", "prepare"]
 
@@ -67,8 +68,10 @@ class Coupling:
         m behind the first axle.
     load_matrices : list of ndarray, shape (stations of the car, 3 or 5, 2 wheels)
         From wheel forces to station loads about the deck axis.
-    modes, vehicles : list of SampledResponse
-        The deck's modes, and one system for each kind of vehicle.
+    modes : SampledModes
+        The deck's.
+    vehicles : list of SampledResponse
+        One for each kind of vehicle.
     """
 
     train: Train | AxleTrain
@@ -83,7 +86,7 @@ class Coupling:
     loads: Stations
     load_delays: np.ndarray
     load_matrices: list[np.ndarray]
-    modes: list[SampledResponse]
+    modes: SampledModes
     vehicles: list[SampledResponse]
 
     def at_rest(self) -> Delta:
@@ -105,30 +108,38 @@ class Coupling:
 
     def deck_state(self, loads: list[np.ndarray]) -> DeckState:
         """Steps 1 and 4: the deck under the loads of every station."""
-        force = self.loads.modal_force(loads, len(self.modes), len(self.time))
-        state = np.array([mode(f[None]) for mode, f in zip(self.modes, force, strict=True)])
-        return DeckState(*map(frozen, (state[:, 0], state[:, 1], force)))
+        force = self.loads.modal_force(loads, len(self.deck.frequencies_hz), len(self.time))
+        return DeckState(*map(frozen, (*self.modes(force), force)))
 
     def support_input(self, state: DeckState, cars: list[int]) -> np.ndarray:
-        """Step 2: what the deck's motion w adds to the cars' input, k w + c w', shape (2 wheels, cars, n)."""
-        met = self.axles.motion(state.q, state.velocity)
+        """Step 2: what the deck's motion w adds to the input of cars of one kind, k w + c w', shape (2 wheels, cars, n)."""
+        vehicle, axle_of = self.train.vehicles[cars[0]], np.array([self.axle_of[c] for c in cars])
+        first = np.array([self.windows[c].start for c in cars])
         longest = max(self.windows[c].stop - self.windows[c].start for c in cars)
-        u = np.zeros((2 * len(self.axle_of[cars[0]]), len(cars), longest))
-        height = self.deck.track_height
-        for place, car in enumerate(cars):
-            vehicle = self.train.vehicles[car]
-            for i, (axle, contact) in enumerate(zip(self.axle_of[car], vehicle.contacts, strict=True)):
-                moved, rate = met[axle]
-                start = int(self.axles.starts[axle]) - self.windows[car].start
-                window = slice(start, start + moved.shape[1])
-                k, c = vehicle.contact_stiffness[i], vehicle.contact_damping[i]
-                u[2 * i + 1, place, window] = k[1] * moved[1] + c[1] * rate[1]
-                if self.settings.feedback == "all":
-                    y = self.settings.track_offset + contact.y
-                    u[2 * i + 1, place, window] += y * (k[1] * moved[2] + c[1] * rate[2])
-                    aside, aside_rate = moved[0] - height * moved[2], rate[0] - height * rate[2]
-                    u[2 * i, place, window] = k[0] * aside + c[0] * aside_rate
+        u = np.zeros((2 * len(vehicle.contacts), len(cars), longest))
+        q, velocity = self.axles.ordered(state.q), self.axles.ordered(state.velocity)
+        # All wheels of one axle meet the same motion, and so do axles of several cars that share a table.
+        for wheels in (np.flatnonzero(axle_of[0] == axle) for axle in dict.fromkeys(axle_of[0])):
+            axles = axle_of[:, wheels[0]]
+            for places in self.axles.alike(axles):
+                moved, rate = self.axles.motion(q, velocity, axles[places])
+                met = [self._wheel_input(vehicle, i, moved, rate) for i in wheels]
+                starts, counts = self.axles.starts[axles[places]] - first[places], self.axles.counts[axles[places]]
+                for i, (lateral, vertical) in zip(wheels, met, strict=True):
+                    for n, (place, start, count) in enumerate(zip(places, starts, counts, strict=True)):
+                        u[2 * i, place, start : start + count] = lateral[n, :count]
+                        u[2 * i + 1, place, start : start + count] = vertical[n, :count]
         return u
+
+    def _wheel_input(self, vehicle: Vehicle, i: int, moved: np.ndarray, rate: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return k w + c w' of one wheel (from 0), lateral and vertical, where its axle meets this motion of the deck."""
+        k, c = vehicle.contact_stiffness[i], vehicle.contact_damping[i]
+        vertical = k[1] * moved[1] + c[1] * rate[1]
+        if self.settings.feedback != "all":
+            return np.zeros_like(vertical), vertical
+        roll = [k[d] * moved[2] + c[d] * rate[2] for d in (0, 1)]
+        vertical += (self.settings.track_offset + vehicle.contacts[i].y) * roll[1]
+        return k[0] * moved[0] + c[0] * rate[0] - self.deck.track_height * roll[0], vertical
 
     def train_pass(self, state: DeckState) -> Delta:
         """Steps 2 and 3: the wheel forces due to the deck's motion, each car while it is on the deck."""
@@ -194,8 +205,7 @@ class Coupling:
         floor = max(1e-6 * max(np.abs(s).max() for s in self.static), np.finfo(float).tiny)
         worst = 0.0
         for rigid, window, a, b in zip(self.rigid, self.windows, new, old, strict=True):
-            moved = np.sqrt(np.mean((a - b) ** 2, axis=1))
-            size = np.sqrt(np.mean((rigid[:, window] + a) ** 2, axis=1))
+            moved, size = (np.sqrt(np.einsum("ij,ij->i", x, x) / x.shape[1]) for x in (a - b, rigid[:, window] + a))
             # Forces that have grown beyond all numbers give NaN, which max() would take for no change at all.
             worst = float(np.maximum(worst, np.max(moved / np.maximum(size, floor))))
         return worst

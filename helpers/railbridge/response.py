@@ -16,6 +16,7 @@ it as the ramp-invariant filter (Smallwood 1981; ISO 18431-4).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import eig, expm, matrix_balance
@@ -23,10 +24,15 @@ from scipy.signal import lfilter
 
 from .inputs import number
 
-__all__ = ["LinearSystem", "SampledResponse", "oscillator", "ramp_coefficients", "second_order_system"]
+__all__ = [
+    "LinearSystem", "SampledModes", "SampledResponse",
+    "oscillator", "ramp_coefficients", "sampled_modes", "second_order_system",
+]  # fmt: skip
 
 _WORST_CONDITION = 1e6
 """Condition of the eigenvectors above which the modes are not trusted: about ten digits would be left."""
+_NEARLY_CRITICAL = 0.9999
+"""Damping ratio from which Im(z) / omega_d would lose digits."""
 
 
 def ramp_coefficients(poles: np.ndarray, time_step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -76,17 +82,23 @@ class LinearSystem:
     def sampled(self, time_step: float) -> SampledResponse:
         """Prepare the exact response at a fixed time step (s)."""
         h = number("time_step", time_step, above=0.0, unit="s")
+        if self._modal is None:
+            return self._block(h)
+        poles, left, right, inverse = self._modal
+        return SampledResponse(h, ramp_coefficients(poles, h), left, right, inverse, None)
+
+    @cached_property
+    def _modal(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None:
+        """Poles, W B, C V and W of the modes with Im(s) >= 0, which do not depend on the step; None if they nearly coincide."""
         # Displacements and velocities differ in size by the frequency: balanced, that does not count against the eigenvectors.
         balanced, (scale, _) = matrix_balance(self.a, permute=False, separate=True)
         poles, vectors = eig(balanced)
         if np.linalg.cond(vectors) > _WORST_CONDITION:
-            return self._block(h)
+            return None
         vectors, inverse = scale[:, None] * vectors, np.linalg.inv(vectors) / scale
         keep = poles.imag >= 0.0
         weight = np.where(poles[keep].imag > 0.0, 2.0, 1.0)
-        left = (inverse @ self.b)[keep]
-        right = (self.c @ vectors)[:, keep] * weight
-        return SampledResponse(h, ramp_coefficients(poles[keep], h), left, right, inverse[keep], None)
+        return poles[keep], (inverse @ self.b)[keep], (self.c @ vectors)[:, keep] * weight, inverse[keep]
 
     def step(self, time_step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return E, B0 and B1 of the exact step ``x[k+1] = E x[k] + B0 u[k] + B1 u[k+1]`` in the system's own coordinates.
@@ -168,6 +180,55 @@ class SampledResponse:
             x[..., k + 1] = e @ x[..., k] + e0 @ runs[..., k] + e1 @ runs[..., k + 1]
         y = self.right @ x.reshape(len(e), -1)
         return y.reshape(len(y), *u.shape[1:])
+
+
+@dataclass(frozen=True)
+class SampledModes:
+    """Independent oscillators ready to be run at one time step, all from rest; made by `sampled_modes`.
+
+    Attributes
+    ----------
+    coefficients : tuple of ndarray, shape (modes,), complex
+        a, b0 and b1 of the pole with the positive imaginary part; see `ramp_coefficients`.
+    poles : ndarray, shape (modes,), complex
+    others : dict of SampledResponse
+        Modes that do not swing, by number from 0; the general response runs them.
+    """
+
+    coefficients: tuple[np.ndarray, np.ndarray, np.ndarray]
+    poles: np.ndarray
+    others: dict[int, SampledResponse]
+
+    def __call__(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return coordinates and velocities under modal forces, all of shape (modes, n).
+
+        The first sample of the force does not move anything.
+        """
+        q, velocity = np.empty_like(force), np.empty_like(force)
+        for m, (f, a, b0, b1, s) in enumerate(zip(force, *self.coefficients, self.poles, strict=True)):
+            if m in self.others:
+                q[m], velocity[m] = self.others[m](f[None])
+                continue
+            z = lfilter([b1, b0], [1.0, -a], f, zi=-b1 * f[:1])[0]
+            np.divide(z.imag, s.imag, out=q[m])
+            np.multiply(q[m], s.real, out=velocity[m])
+            velocity[m] += z.real
+        return q, velocity
+
+
+def sampled_modes(omega: np.ndarray, ratio: np.ndarray, time_step: float) -> SampledModes:
+    r"""Prepare modes ``q'' + 2 ratio omega q' + omega^2 q = f`` for one time step (s).
+
+    With the pole ``s = -ratio omega + i omega_d`` and ``z' = s z + f``, the oscillator's impulse response
+    ``exp(-ratio omega t) sin(omega_d t) / omega_d`` gives ``q = Im(z) / omega_d`` and ``q' = Im(s z) / omega_d``: one filter
+    a mode, without eigenvectors.
+    """
+    omega, ratio = np.asarray(omega, dtype=float), np.asarray(ratio, dtype=float)
+    swings = (omega > 0.0) & (ratio < _NEARLY_CRITICAL)
+    safe = np.where(swings, omega, 1.0), np.where(swings, ratio, 0.0)
+    poles = -safe[0] * safe[1] + 1j * safe[0] * np.sqrt(1.0 - safe[1] ** 2)
+    others = {int(m): oscillator(omega[m], ratio[m]).sampled(time_step) for m in np.flatnonzero(~swings)}
+    return SampledModes(ramp_coefficients(poles, time_step), poles, others)
 
 
 def second_order_system(

@@ -287,8 +287,9 @@ def equivalent_irregularity(step: Staggered, car: int = 1, wheel: int = 1) -> Hi
     x = s.speed * step.time - own.delay + ahead
     deck = np.zeros((2, len(step.time)))
     if step.felt is not None:
-        moved, _ = step.coupling.axles.motion(step.felt.q, step.felt.velocity)[axle]
-        start = int(step.coupling.axles.starts[axle])
+        axles = step.coupling.axles
+        moved = axles.motion(axles.ordered(step.felt.q), axles.ordered(step.felt.velocity), np.array([axle]))[0][:, 0]
+        start = int(axles.starts[axle])
         window = slice(start, start + moved.shape[1])
         deck[1, window] = moved[1]
         if s.feedback == "all":

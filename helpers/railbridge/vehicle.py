@@ -258,19 +258,17 @@ class Vehicle:
 
         The force on the deck without its static part is output minus input.
         """
+        return self._system
+
+    @cached_property
+    def _system(self) -> LinearSystem:
         rows, k, c = self._contact_rows()
         output = np.hstack([k[:, None] * rows, c[:, None] * rows])
         return second_order_system(self.mass_matrix, self.damping_matrix, self.stiffness_matrix, rows.T, output)
 
     def sampled(self, time_step: float) -> SampledResponse:
-        """Return `system` ready to run at one time step (s), made once for each step."""
-        if time_step not in self._ready:
-            self._ready[time_step] = self.system().sampled(time_step)
-        return self._ready[time_step]
-
-    @cached_property
-    def _ready(self) -> dict[float, SampledResponse]:
-        return {}
+        """Return `system` ready to run at one time step (s)."""
+        return self.system().sampled(time_step)
 
     @property
     def body(self) -> Body:
