@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from railbridge.inputs import InputError
-from railbridge.shell import Pad, Plate, Shell, Strip, mac, pairs
+from railbridge.shell import Pad, Plate, Shell, Strip
 
 E, NU, RHO = 30e9, 0.2, 2500.0
 G = E / (2 * (1 + NU))
@@ -166,18 +166,6 @@ def test_missing_library_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "pyfe3d", None)
     with pytest.raises(InputError, match=r"\[fem\]"):
         tube(2.0, 1.6, 0.1, 10.0, 10, pads=short(0.0, 16)).modes(1)
-
-
-def test_assurance_criterion():
-    a = np.eye(4)[:, :3]
-    assert mac(a, a) == pytest.approx(np.eye(3))
-    mixed = np.column_stack([(a[:, 0] + a[:, 1]) * -7.0])
-    assert mac(a, mixed)[:, 0] == pytest.approx([0.5, 0.5, 0.0])
-    assert mac(a, mixed, [3.0, 1.0, 1.0, 1.0])[:, 0] == pytest.approx([0.75, 0.25, 0.0])
-    assert pairs(np.array([[0.9, 0.6], [0.95, 0.1], [0.2, 0.3]])) == {1: 0, 0: 1}
-    for bad in ((a, np.zeros((3, 2))), (a, np.zeros((4, 1)))):
-        with pytest.raises(InputError):
-            mac(*bad)
 
 
 def test_speed():

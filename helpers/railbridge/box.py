@@ -20,9 +20,9 @@ from .bearings import on_deck, tables
 from .deck import Deck, checked_damping, damping_ratios
 from .inputs import InputError
 from .section import SectionProperties, refuse_crossing, section_properties
-from .shell import Pad, Plate, Shell, ShellModes, Strip, mac
+from .shell import Pad, Plate, Shell, Strip
 
-__all__ = ["Box", "BoxMesh", "Pads", "beam_motions", "box", "box_from_table", "shell_against_beam"]
+__all__ = ["Box", "BoxMesh", "Pads", "box", "box_from_table"]
 
 _DIRECTIONS = ("x", "y", "z")
 
@@ -521,61 +521,6 @@ def _area(corners: np.ndarray) -> float:
     """Area inside a closed line of corners."""
     y, z = corners.T
     return abs(float(y @ np.roll(z, -1) - z @ np.roll(y, -1))) / 2
-
-
-def beam_motions(beam: Beam, x: np.ndarray, height: float = 0.0) -> np.ndarray:
-    """Return the rigid motions of a beam's sections in its modes.
-
-    Parameters
-    ----------
-    beam : Beam
-        Of one piece.
-    x : ndarray, shape (s,)
-        Places, m.
-    height : float
-        m above the deck axis, of the point whose translations are wanted.
-
-    Returns
-    -------
-    ndarray, shape (s, 6, m)
-        x y z roll pitch yaw in all modes of the mesh, as `Shell.section_motions`; straight between nodes.
-    """
-    mesh, vectors = beam.mesh, beam.modes.vectors
-    nodal = vectors[: 6 * len(mesh.nodes)].reshape(len(mesh.nodes), 6, -1)
-    right = np.clip(np.searchsorted(mesh.nodes, x), 1, len(mesh.nodes) - 1)
-    share = np.clip((x - mesh.nodes[right - 1]) / (mesh.nodes[right] - mesh.nodes[right - 1]), 0.0, 1.0)[:, None, None]
-    u, v, w, roll, yaw, minus_pitch = ((1 - share) * nodal[right - 1] + share * nodal[right]).transpose(1, 0, 2)
-    # u is that of the centroid, v and w those of the axis.
-    along = u - minus_pitch * (height - beam.centroid_height)
-    return np.stack([along, v - roll * height, w, roll, -minus_pitch, yaw], axis=1)
-
-
-def shell_against_beam(shell: Shell, modes: ShellModes, beam: Beam, height: float, count: int = 30) -> np.ndarray:
-    """Return the modal assurance criterion between a shell's modes and the lowest modes of a beam.
-
-    Both are compared as rigid motions of the sections, weighted with the section's mass and inertias. The shell's own norm
-    counts its local motion, too: a mode of the plates is like no mode of the beam.
-
-    Parameters
-    ----------
-    shell, modes
-        The shell and its modes.
-    beam : Beam
-    height : float
-        m, of the shell's centre of mass above the deck axis of the beam.
-    count : int
-        Modes of the beam.
-
-    Returns
-    -------
-    ndarray, shape (modes of the shell, count)
-    """
-    inside = (shell.stations >= 0.0) & (shell.stations <= beam.length)
-    theirs = beam_motions(beam, shell.stations[inside], height)[:, :, :count]
-    weights = np.repeat(shell.tributary[inside], 6) * np.tile(shell.inertias, int(inside.sum()))
-    ours = modes.motions[inside].reshape(len(weights), -1)
-    rigid = 1.0 - modes.shares["local"]
-    return mac(ours, theirs.reshape(len(weights), -1), weights) * rigid[:, None]
 
 
 _DIMENSIONS = tuple(f.name for f in fields(Box) if f.name not in ("name", "spans", "bearings", "tracks"))

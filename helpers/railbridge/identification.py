@@ -23,10 +23,11 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from . import inputs
-from .box import Box, BoxMesh, Pads, shell_against_beam
+from .box import Box, BoxMesh, Pads
+from .comparison import pairs, shell_against_beam
 from .inputs import InputError
 from .paper import TABLE2_DECK
-from .shell import Pad, Shell, ShellModes, pairs
+from .shell import Pad, Shell, ShellModes
 
 __all__ = [
     "COARSE", "FAMILIES", "HYPOTHESES", "MASS", "SINGLE", "UNKNOWNS", "Fit", "Unknown", "beam_frequencies", "bearing_study",

@@ -28,7 +28,7 @@ from . import inputs
 from .deck import PiecewiseCubic
 from .inputs import InputError
 
-__all__ = ["KINDS", "Pad", "Plate", "Shell", "ShellModes", "Strip", "mac", "pairs"]
+__all__ = ["KINDS", "Pad", "Plate", "Shell", "ShellModes", "Strip"]
 
 KINDS = ("vertical", "lateral", "torsion", "axial", "local")
 """The parts of a mode's kinetic energy."""
@@ -618,48 +618,3 @@ def _kind(shares: dict[str, float]) -> str:
     if along > 0.5 and 0.25 <= shares["axial"] / along <= 0.75:
         return "mixed"
     return max(("vertical", "lateral", "torsion", "axial"), key=lambda k: shares[k])
-
-
-def mac(a: np.ndarray, b: np.ndarray, weights: np.ndarray | None = None) -> np.ndarray:
-    """Return the modal assurance criterion of two sets of shapes: ``(a.b)^2 / (a.a b.b)`` with weights (mass).
-
-    Parameters
-    ----------
-    a : ndarray, shape (n, m)
-    b : ndarray, shape (n, k)
-    weights : ndarray, shape (n,), optional
-        Mass that belongs to each entry.
-
-    Returns
-    -------
-    ndarray, shape (m, k)
-        1: the same shape; 0: none of it (orthogonal). A pair below about 0.8 is no pair.
-
-    Raises
-    ------
-    InputError
-        Sets that do not have the same rows, or a shape that is zero.
-    """
-    a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
-    if a.ndim != 2 or b.ndim != 2 or len(a) != len(b):
-        raise InputError("mac", (a.shape, b.shape), "both sets need the same rows, one column a shape")
-    w = np.ones(len(a)) if weights is None else inputs.numbers("mac: weights", weights, count=len(a), least=0.0)
-    norm_a, norm_b = np.einsum("n,nm->m", w, a**2), np.einsum("n,nm->m", w, b**2)
-    for name, norm in (("first", norm_a), ("second", norm_b)):
-        if np.any(norm == 0.0):
-            raise InputError("mac", int(np.argmin(norm)) + 1, f"this shape of the {name} set is zero")
-    return (a.T @ (w[:, None] * b)) ** 2 / np.outer(norm_a, norm_b)
-
-
-def pairs(criterion: np.ndarray, least: float = 0.5) -> dict[int, int]:
-    """Pair the rows of a criterion with its columns, best first; pairs below `least` are left out.
-
-    Returns
-    -------
-    dict
-        Column by row, both from 0.
-    """
-    from scipy.optimize import linear_sum_assignment
-
-    rows, columns = linear_sum_assignment(-np.asarray(criterion))
-    return {int(r): int(c) for r, c in zip(rows, columns, strict=True) if criterion[r, c] >= least}

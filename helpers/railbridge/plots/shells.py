@@ -169,7 +169,7 @@ def assurance(
     Parameters
     ----------
     criterion : ndarray, shape (len(rows), len(columns))
-        From `railbridge.shell.mac`.
+        From `railbridge.comparison.mac`.
     rows, columns : sequence of str
         Names of the modes.
     ax : Axes, optional
