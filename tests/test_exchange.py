@@ -1,4 +1,4 @@
-"""Modal models of other programs: read, refused, put under the rail, and given back."""
+"""Files of modal models: read, refused and given back."""
 
 import dataclasses
 import json
@@ -10,49 +10,16 @@ import pytest
 from jsonschema import Draft7Validator
 
 import railbridge as rb
+from modal_files import EXAMPLE, cells, change, crossing, differ, read
 from opensees import example_tables, viaduct36_in_mm
 from railbridge import cli, exchange
 from railbridge.inputs import data_root
-from railbridge.summary import summarize
-
-EXAMPLE = data_root() / "exchange" / "viaduct36_mm"
-X = np.linspace(0.0, 36.0, 721)
 
 
 @pytest.fixture
 def folder(tmp_path):
     """A copy of the example that a test may spoil."""
     return shutil.copytree(EXAMPLE, tmp_path / "model")
-
-
-def read(folder, masses=True, **options):
-    files = [folder / f"{name}.csv" for name in (("nodes", "modes", "masses") if masses else ("nodes", "modes"))]
-    return exchange.read_modes(*files, **options)
-
-
-def change(path, edit):
-    """Apply a function to the lines of a file."""
-    path.write_text("\n".join(edit(path.read_text(encoding="utf-8").splitlines())) + "\n", encoding="utf-8")
-
-
-def cells(line, index, value):
-    row = line.split(",")
-    row[index] = value
-    return ",".join(row)
-
-
-def differ(a, b):
-    """Largest difference between the shapes of two decks, by component, against the largest value of each."""
-    a, b = a.shapes(X), b.shapes(X)
-    return np.abs(a - b).max(axis=(0, 1)) / np.abs(a).max(axis=(0, 1))
-
-
-def crossing(deck, **options):
-    track = rb.Track(vertical=rb.Harmonic(5e-3, wavelength=14.4), lateral=rb.Harmonic(2e-3, wavelength=14.4))
-    train = rb.Train(rb.vehicle("xia2000"), cars=2)
-    return rb.cross(
-        train, deck, track, speed=20.0, track_offset="left", time_step=2e-3, lead_in=0.0, **{"iterations": 3, **options}
-    )
 
 
 # ---- round trip
@@ -130,48 +97,6 @@ def test_the_example_is_the_shipped_deck():
         assert np.max(np.abs(a)) == pytest.approx(np.max(np.abs(b)), rel=limit)
 
 
-@pytest.mark.parametrize(
-    "rail", [{"y": 3.38, "z": 1.3}, {"left": {"nodes": range(101, 126)}, "right": {"y": 1.42, "z": 1.3}}], ids=["arm", "pair"]
-)
-def test_nodes_beside_the_axis_move_it_as_a_rigid_section(rail):
-    model = read(EXAMPLE)
-    on_axis = exchange.deck_from_modes(model, model.nodes.line({"y": 0.0, "z": 0.0}))
-    line = model.nodes.line(rail, {"y": 0.0, "z": 0.0})
-    off, other = differ(exchange.deck_from_modes(model, line), on_axis), 10 * [0.0]
-    assert len(other) == len(on_axis.mode_names)
-    # One node has rotations, so the axis follows to round-off of the file; a pair has splines instead.
-    assert off.max() < (1e-2 if line.paired else 1e-8)
-    # Without `axis` the deck axis is at the rails themselves, which move sideways when the deck twists about an axis below.
-    raised = exchange.deck_from_modes(model, model.nodes.line(rail))
-    twist = raised.mode_names.index("torsion 1") if "torsion 1" in raised.mode_names else 3
-    above = raised.shapes(np.array([18.0]))[0, twist]
-    assert above[0] == pytest.approx(-1.3 * above[2], rel=1e-6)
-
-
-def test_displacements_alone_do_where_there_are_no_rotations(folder):
-    """As solid elements: rotations are printed as zeros, or not at all."""
-    whole = read(EXAMPLE)
-    exact = exchange.deck_from_modes(whole, whole.nodes.line({"y": 0.0, "z": 0.0}))
-    pair = {"left": {"y": 3.38, "z": 1.3}, "right": {"y": 1.42, "z": 1.3}}
-    for edit in (
-        lambda lines: [line if i < 2 else ",".join([*line.split(",")[:7], "0,0,0"]) for i, line in enumerate(lines)],
-        lambda lines: [line if i < 1 else ",".join(line.split(",")[:7]) for i, line in enumerate(lines)],
-    ):
-        change(folder / "modes.csv", edit)
-        model = read(folder, masses=False)
-        assert model.rotations == (False, False, False)
-        deck = exchange.deck_from_modes(model, model.nodes.line(pair, {"y": 0.0, "z": 0.0}), count=6)
-        assert differ(deck, dataclasses.replace(exact, shapes=_first(exact.shapes, 6))).max() < 2e-3
-        single = exchange.deck_from_modes(model, model.nodes.line({"y": 0.0, "z": 0.0}))
-        assert single.has == {"y": True, "z": True, "roll": False}
-        # Pure torsion moves no rail of such a line.
-        assert not any(name.startswith("torsion") for name in single.mode_names)
-
-
-def _first(shapes, count):
-    return dataclasses.replace(shapes, coefficients=shapes.coefficients[:, :, :count])
-
-
 def test_units_and_axes_of_the_model_do_not_matter(folder):
     want = exchange.deck_from_modes(read(EXAMPLE), read(EXAMPLE).nodes.line({"y": 0.0, "z": 0.0}))
 
@@ -196,27 +121,6 @@ def test_units_and_axes_of_the_model_do_not_matter(folder):
     deck = exchange.deck_from_modes(model, model.nodes.line({"y": 0.0, "z": 0.0}))
     assert differ(deck, want).max() < 1e-12
     assert deck.frequencies_hz == pytest.approx(want.frequencies_hz)
-
-
-def test_masses_show_how_orthogonal_the_modes_are():
-    found = read(EXAMPLE).orthogonality()
-    assert found.known_masses and found.worst < 1e-8
-    assert found.own == pytest.approx(np.ones(10), rel=1e-6)
-    guess = read(EXAMPLE, masses=False).orthogonality()
-    assert not guess.known_masses and np.isnan(guess.own).all()
-
-
-def test_what_modes_cannot_give_is_null_and_said():
-    deck = rb.deck(EXAMPLE / "deck.toml")
-    summary = summarize(crossing(deck, interaction="rigid", iterations=None), [18.0])
-    point = summary["points"][0]
-    assert [point[n] for n in ("moment_vertical", "moment_lateral", "torsion", "shear_vertical")] == [None] * 4
-    assert point["displacement_z"]["min"]["value"] < -1e-3
-    assert summary["reactions"] == [] and summary["self_weight"]["moment_vertical"] == [None]
-    assert "Only modes of this deck are known" in summary["remarks"][0]
-    assert summarize(crossing(rb.deck("viaduct36"), interaction="rigid", iterations=None), [18.0])["remarks"] == []
-    with pytest.raises(rb.InputError, match="only its modes are known"):
-        crossing(deck, interaction="rigid", iterations=None).section_forces(18.0)
 
 
 # ---- deck files and cases
@@ -379,12 +283,6 @@ def test_other_refusals_name_the_field(folder):
         with pytest.raises(rb.InputError) as error:
             model.nodes.line(rail)
         assert error.value.field == field
-    for damping in (-0.1, "little", (1.0,)):
-        with pytest.raises(rb.InputError, match="damping"):
-            exchange.deck_from_modes(model, model.nodes.line({"y": 0.0, "z": 0.0}), damping=damping)
-    still = dataclasses.replace(model, shapes=0.0 * model.shapes)
-    with pytest.raises(rb.InputError, match="rail: stands still in every mode"):
-        exchange.deck_from_modes(still, model.nodes.line({"y": 0.0, "z": 0.0}))
     for axes in (["x", "y", "-z"], ["x", "x", "z"], "xyz", ["x", "up", "z"]):
         with pytest.raises(rb.InputError, match="axes"):
             read(EXAMPLE, axes=axes)
