@@ -339,3 +339,12 @@ def test_car_forces_at_a_centre_of_mass_off_the_middle():
     whole = run.car_forces(at="centre")
     assert (whole["moment_x"] - centre["moment_x"])[0] == pytest.approx(0.0, abs=1.0)
     assert (whole["moment_y"] - centre["moment_y"])[0] == pytest.approx(0.0, abs=1.0)
+
+
+def test_states_kept_from_the_iteration_are_those_of_its_passes():
+    run = rb.case("paper").replace({"train.cars": 2, "run.time_step": 0.004}).run()
+    assert sorted(run.states) == [0, run.iterations - 1]
+    for i in range(run.iterations + 1):
+        expected = run.coupling.deck_state(run.coupling.station_loads(run.passes[i]))
+        assert np.array_equal(run.at(i).state.q, expected.q) and np.array_equal(run.at(i).state.velocity, expected.velocity)
+    assert run.at(2).state is run.at(2).state

@@ -9,7 +9,7 @@ from __future__ import annotations
 import copy
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import InitVar, dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from pprint import pformat
@@ -53,9 +53,15 @@ class Case:
         What was left open in them filled in.
     points : ndarray
         Places of interest along the deck, m.
+
+    Notes
+    -----
+    `like` and `unchanged` serve `replace`: sections taken over as they are from another case.
     """
 
     content: dict[str, Any]
+    like: InitVar[Case | None] = None
+    unchanged: InitVar[frozenset[str]] = frozenset()
     train: Train | AxleTrain = field(init=False, repr=False, compare=False)
     deck: Deck = field(init=False, repr=False, compare=False)
     track: Track = field(init=False, repr=False, compare=False)
@@ -63,14 +69,17 @@ class Case:
     settings: Settings = field(init=False, repr=False, compare=False)
     points: np.ndarray = field(init=False, repr=False, compare=False)
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, like: Case | None, unchanged: frozenset[str]) -> None:
         content = {k: inputs.plain(k, v) for k, v in inputs.table("case", self.content).items()}
         inputs.keys("", content, ["track", "output"], ["deck", "train", "run"])
         run = inputs.table("run", content["run"])
         inputs.keys("run", run, RUN_KEYS, ["speed"])
-        train, offset = _train(content["train"])
-        deck = _deck(content["deck"])
-        track = _track(content.get("track", {}))
+        if "train" in unchanged:
+            train, offset = like.train, like.options["track_offset"]
+        else:
+            train, offset = _train(content["train"])
+        deck = like.deck if "deck" in unchanged else _deck(content["deck"])
+        track = like.track if "track" in unchanged else _track(content.get("track", {}))
         options = {**run, "track_offset": offset}
         settings = check(train, deck, track, **options)
         output = inputs.table("output", content.get("output", {}))
@@ -97,7 +106,8 @@ class Case:
         ----------
         changes : mapping
             New values by path, for instance ``{"run.speed": 22.0, "track.vertical.wavelength": 15.0}``. A value of None
-            takes the key away.
+            takes the key away. Deck, train and track are made anew where a change names them, and kept otherwise: neither
+            is a slider that moves the speed slowed down by reading files, nor does a file that has changed since slip in.
         """
         content = copy.deepcopy(self.content)
         for path, value in changes.items():
@@ -111,7 +121,7 @@ class Case:
                 place.pop(last, None)
             else:
                 place[last] = value
-        return Case(content)
+        return Case(content, self, frozenset({"train", "deck", "track"} - {path.split(".")[0] for path in changes}))
 
     def get(self, path: str) -> Any:
         """Return the value at a path, None if it is not given."""

@@ -76,6 +76,8 @@ class Crossing:
         Which iteration the methods speak of.
     coupling : Coupling
         What all iterations share.
+    states : dict of DeckState
+        The deck's state by iteration, as far as it is known; shared by what `at` returns.
     """
 
     train: Train | AxleTrain
@@ -87,6 +89,7 @@ class Crossing:
     converged: bool | None
     shown: int
     coupling: Coupling = field(repr=False)
+    states: dict[int, DeckState] = field(repr=False)
 
     @property
     def iterations(self) -> int:
@@ -292,10 +295,12 @@ class Crossing:
     def _loads(self) -> list[np.ndarray]:
         return self.coupling.station_loads(self.passes[self.shown])
 
-    @cached_property
+    @property
     def state(self) -> DeckState:
-        """The deck's modal state at the iteration shown."""
-        return self.coupling.deck_state(self._loads)
+        """The deck's modal state at the iteration shown, computed when it is first asked for."""
+        if self.shown not in self.states:
+            self.states[self.shown] = self.coupling.deck_state(self._loads)
+        return self.states[self.shown]
 
     def static(self, line: Line) -> np.ndarray:
         """Return what an influence line gives under the loads of every instant, as if they stood still, shape (n,)."""
@@ -411,11 +416,12 @@ def cross(
     if lead_in is not None:
         _warn_of_transient(coupling, track)
     if interaction == "rigid":
-        return Crossing(train, deck, track, settings, (coupling.at_rest(),), (), None, 0, coupling)
+        return Crossing(train, deck, track, settings, (coupling.at_rest(),), (), None, 0, coupling, {})
     if interaction == "direct":
-        return Crossing(train, deck, track, settings, (coupling.at_rest(), direct(coupling, progress)), (), None, 1, coupling)
+        return Crossing(train, deck, track, settings, (coupling.at_rest(), direct(coupling, progress)), (), None, 1, coupling, {})
     found = iterate(coupling, progress)
-    run = Crossing(train, deck, track, settings, found.passes, found.changes, found.converged, len(found.changes), coupling)
+    last = len(found.changes)
+    run = Crossing(train, deck, track, settings, found.passes, found.changes, found.converged, last, coupling, found.states)
     if iterations is None and not found.converged:
         raise NotConvergedError(run)
     return run

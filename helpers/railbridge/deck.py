@@ -252,19 +252,17 @@ class Stations:
             total[self.pairs[0][pairs]] += ordered[pairs]
         return total
 
-    def ordered(self, state: np.ndarray) -> list[np.ndarray]:
-        """Return a modal state, shape (modes, samples), as `motion` takes it: the modes of y, of z and of roll."""
-        return [state[self.pairs[0][pairs]] for pairs in self.components]
+    def ordered(self, q: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+        """Return modal coordinates and velocities, shape (modes, n), of each pair's mode: shape (2, pairs, n)."""
+        return np.stack([q[self.pairs[0]], velocity[self.pairs[0]]])
 
-    def motion(
-        self, q: Sequence[np.ndarray], velocity: Sequence[np.ndarray], stations: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def motion(self, state: np.ndarray, stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return what stations that share a table meet: y, z, roll of the deck, and their total time derivatives.
 
         Parameters
         ----------
-        q, velocity : sequence of ndarray
-            As `ordered` returns them.
+        state : ndarray, shape (2, pairs, n)
+            See `ordered`.
         stations : ndarray of int, shape (s,)
             Numbers from 0; see `alike`.
 
@@ -273,27 +271,27 @@ class Stations:
         moved, rate : ndarray, shape (3, s, samples of the longest)
         """
         values, slopes = self.tables[self.which[stations[0]]]
-        starts, count = self.starts[stations], int(self.counts[stations].max())
+        count = int(self.counts[stations].max())
         values, climb = values[:, :count], self.speed * slopes[:, :count]
+        q, velocity = _windows(state, self.starts[stations], count)
         moved, rate = np.empty((2, 3, len(stations), count))
-        for c, pairs in enumerate(self.components):
-            here, there = (_windows(state[c], starts, count) for state in (q, velocity))
-            np.einsum("pt,pst->st", values[pairs], here, out=moved[c])
-            np.einsum("pt,pst->st", values[pairs], there, out=rate[c])
-            rate[c] += np.einsum("pt,pst->st", climb[pairs], here)
+        for c, p in enumerate(self.components):
+            np.einsum("pt,pst->st", values[p], q[p], out=moved[c])
+            np.einsum("pt,pst->st", values[p], velocity[p], out=rate[c])
+            rate[c] += np.einsum("pt,pst->st", climb[p], q[p])
         return moved, rate
 
 
-def _windows(rows: np.ndarray, starts: np.ndarray, count: int) -> np.ndarray:
-    """Return `count` samples of every row from each start on, (rows, starts, count): a view where starts are evenly spaced."""
-    missing = int(starts[-1]) + count - rows.shape[1]
+def _windows(values: np.ndarray, starts: np.ndarray, count: int) -> np.ndarray:
+    """Return `count` samples from each start on, shape (..., starts, count): a view where starts are evenly spaced."""
+    missing = int(starts[-1]) + count - values.shape[-1]
     if missing > 0:
-        rows = np.pad(rows, ((0, 0), (0, missing)))
-    windows = sliding_window_view(rows, count, axis=1)
+        values = np.concatenate([values, np.zeros((*values.shape[:-1], missing))], axis=-1)
+    windows = sliding_window_view(values, count, axis=-1)
     steps = np.diff(starts)
     if len(starts) == 1 or (steps[0] > 0 and np.all(steps == steps[0])):
-        return windows[:, starts[0] : starts[-1] + 1 : steps[0] if len(steps) else 1]
-    return windows[:, starts]
+        return windows[..., starts[0] : starts[-1] + 1 : steps[0] if len(steps) else 1, :]
+    return windows[..., starts, :]
 
 
 @dataclass(frozen=True, eq=False)

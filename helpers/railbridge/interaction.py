@@ -117,12 +117,12 @@ class Coupling:
         first = np.array([self.windows[c].start for c in cars])
         longest = max(self.windows[c].stop - self.windows[c].start for c in cars)
         u = np.zeros((2 * len(vehicle.contacts), len(cars), longest))
-        q, velocity = self.axles.ordered(state.q), self.axles.ordered(state.velocity)
+        deck = self.axles.ordered(state.q, state.velocity)
         # All wheels of one axle meet the same motion, and so do axles of several cars that share a table.
         for wheels in (np.flatnonzero(axle_of[0] == axle) for axle in dict.fromkeys(axle_of[0])):
             axles = axle_of[:, wheels[0]]
             for places in self.axles.alike(axles):
-                moved, rate = self.axles.motion(q, velocity, axles[places])
+                moved, rate = self.axles.motion(deck, axles[places])
                 met = [self._wheel_input(vehicle, i, moved, rate) for i in wheels]
                 starts, counts = self.axles.starts[axles[places]] - first[places], self.axles.counts[axles[places]]
                 for i, (lateral, vertical) in zip(wheels, met, strict=True):
@@ -252,11 +252,15 @@ def prepare(train: Train | AxleTrain, deck: Deck, track: Track, s: Settings) -> 
 
 @dataclass(frozen=True, eq=False)
 class FixedPoint:
-    """Every pass of an iteration, pass 0 (rigid deck) first, with the changes and whether it settled."""
+    """Every pass of an iteration, pass 0 (rigid deck) first, with the changes and whether it settled.
+
+    `states` holds the deck's state under the first pass and under the last but one, which the last answers to.
+    """
 
     passes: tuple[Delta, ...]
     changes: tuple[float, ...]
     converged: bool
+    states: dict[int, DeckState]
 
 
 def iterate(coupling: Coupling, progress: Callable[[str], None] | None = None) -> FixedPoint:
@@ -265,9 +269,12 @@ def iterate(coupling: Coupling, progress: Callable[[str], None] | None = None) -
     passes, changes = [coupling.at_rest()], []
     share = s.relaxation if isinstance(s.relaxation, float) else 1.0
     previous, below = None, 0
-    for _ in range(s.iterations or s.max_iterations):
+    states: dict[int, DeckState] = {}
+    for i in range(s.iterations or s.max_iterations):
         old = passes[-1]
-        new = coupling.train_pass(coupling.deck_state(coupling.station_loads(old)))
+        state = coupling.deck_state(coupling.station_loads(old))
+        states = {n: kept for n, kept in states.items() if n == 0} | {i: state}
+        new = coupling.train_pass(state)
         changes.append(coupling.change(new, old))
         if progress is not None:
             progress(f"iteration {len(changes)}: change {changes[-1]:.1e}")
@@ -281,7 +288,7 @@ def iterate(coupling: Coupling, progress: Callable[[str], None] | None = None) -
         below = below + 1 if changes[-1] < s.tolerance else 0
         if not np.isfinite(changes[-1]) or (s.iterations is None and below == 2):
             break
-    return FixedPoint(tuple(passes), tuple(changes), below >= 2)
+    return FixedPoint(tuple(passes), tuple(changes), below >= 2, states)
 
 
 def _aitken(share: float, step: list[np.ndarray], previous: list[np.ndarray]) -> float:
