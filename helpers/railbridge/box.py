@@ -19,12 +19,11 @@ from .beam import Beam, Bearing, checked_spans
 from .bearings import on_deck, tables
 from .deck import Deck, checked_damping, damping_ratios
 from .inputs import InputError
+from .pads import DIRECTIONS, Pad
 from .section import SectionProperties, refuse_crossing, section_properties
-from .shell import Pad, Plate, Shell, Strip
+from .shell import Plate, Shell, Strip
 
 __all__ = ["Box", "BoxMesh", "Pads", "box", "box_from_table"]
-
-_DIRECTIONS = ("x", "y", "z")
 
 
 @dataclass(frozen=True)
@@ -57,9 +56,9 @@ class Pads:
     def check(self, here: str) -> None:
         """Refuse unknown or doubly held directions and sizes out of range; `here` names the bearing line."""
         for name in self.fixed:
-            inputs.choice(f"{here}: fixed", name, _DIRECTIONS)
+            inputs.choice(f"{here}: fixed", name, DIRECTIONS)
         for name, value in inputs.table(f"{here}: stiffness", self.stiffness).items():
-            inputs.choice(f"{here}: stiffness", name, _DIRECTIONS)
+            inputs.choice(f"{here}: stiffness", name, DIRECTIONS)
             inputs.number(f"{here}: stiffness.{name}", value, above=0.0, most=1e14, unit="N/m")
             if name in self.fixed:
                 raise InputError(f"{here}: stiffness.{name}", value, "is fixed, too", "Give one of both")
@@ -555,7 +554,7 @@ def box_from_table(name: str, content: dict[str, Any]) -> Box:
         raise InputError(f"{where}: length", content.get("length"), "give either length or spans")
     dimensions = inputs.table(f"{where}: box", content["box"])
     inputs.keys(f"{where}: box", dimensions, _DIMENSIONS, _NEEDED)
-    held = tables(where, content.get("bearing", []), [f.name for f in fields(Pads)], _DIRECTIONS)
+    held = tables(where, content.get("bearing", []), [f.name for f in fields(Pads)], DIRECTIONS)
     return Box(
         name,
         content["spans"] if "spans" in content else [content["length"]],

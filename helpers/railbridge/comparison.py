@@ -8,7 +8,8 @@ from scipy.optimize import linear_sum_assignment
 from . import inputs
 from .beam import Beam
 from .inputs import InputError
-from .shell import Shell, ShellModes
+from .motions import ShellModes
+from .shell import Shell
 
 __all__ = ["beam_motions", "mac", "pairs", "shell_against_beam"]
 
@@ -71,7 +72,7 @@ def beam_motions(beam: Beam, x: np.ndarray, height: float = 0.0) -> np.ndarray:
     Returns
     -------
     ndarray, shape (s, 6, m)
-        x y z roll pitch yaw in all modes of the mesh, as `Shell.section_motions`; straight between nodes.
+        x y z roll pitch yaw in all modes of the mesh, as `motions.section_motions`; straight between nodes.
     """
     mesh, vectors = beam.mesh, beam.modes.vectors
     nodal = vectors[: 6 * len(mesh.nodes)].reshape(len(mesh.nodes), 6, -1)

@@ -26,8 +26,10 @@ from . import inputs
 from .box import Box, BoxMesh, Pads
 from .comparison import pairs, shell_against_beam
 from .inputs import InputError
+from .motions import ShellModes
+from .pads import Pad
 from .paper import TABLE2_DECK
-from .shell import Pad, Shell, ShellModes
+from .shell import Shell
 
 __all__ = [
     "COARSE", "FAMILIES", "HYPOTHESES", "MASS", "SINGLE", "UNKNOWNS", "Fit", "Unknown", "beam_frequencies", "bearing_study",

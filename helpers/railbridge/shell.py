@@ -4,14 +4,7 @@ A section is points (y, z) joined by strips; carried along stations x it becomes
 (`pyfe3d`: Mindlin plate with reduced shear, membrane with drilling rotations after Allman). All elements of a strip that
 are equally long are equal, so each is computed once. Plates across the deck (diaphragms) stand at stations.
 
-*Bearings.* A force on a shell at one point, in the plane of a web, has no mesh limit: the displacement under it grows with
-the logarithm of the element size, and frequencies sink for ever. A bearing therefore acts on a pad: it holds, rigidly or by
-springs, the *mean* displacement of the web's foot over the pad's length. The mean leaves the foot free to turn, as a
-bearing does, and is an integral of the finite-element field, so that pads need no mesh of their own.
-
-*Names.* At each station the motion of the section is split into the rigid motion nearest to it (least squares with the
-mass) and the rest. The kinetic energy falls into five parts accordingly: vertical (with pitch), lateral (with yaw), torsion,
-axial, and local: distortion and bending of the plates. See `ShellModes` for the rule.
+What bearings hold is in `pads`, what the modes are called in `motions`.
 """
 
 from __future__ import annotations
@@ -21,23 +14,16 @@ from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.sparse import csc_array, csr_array, diags_array, eye_array, vstack
+from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from . import inputs
 from .deck import PiecewiseCubic
 from .inputs import InputError
+from .motions import KINDS, ShellModes, described, sectionwise
+from .pads import Pad, elimination, free_count, held
 
 __all__ = ["KINDS", "Pad", "Plate", "Shell", "ShellModes", "Strip"]
-
-KINDS = ("vertical", "lateral", "torsion", "axial", "local")
-"""The parts of a mode's kinetic energy."""
-
-_LABELS = {
-    "vertical": "vertical bending", "lateral": "lateral bending", "torsion": "torsion", "axial": "axial",
-    "mixed": "axial-bending", "local": "local plate",
-}  # fmt: skip
-_DIRECTIONS = ("x", "y", "z")
 
 
 @dataclass(frozen=True)
@@ -84,74 +70,6 @@ class Plate:
     x: float
     thickness: float
     points: np.ndarray
-
-
-@dataclass(frozen=True)
-class Pad:
-    """A bearing pad under a point of the section.
-
-    Attributes
-    ----------
-    x, length : float
-        Middle and length along the deck, m.
-    point : int
-        Point of the section that stands on it.
-    arm : float
-        m, how far below that point the bearing holds.
-    fixed : tuple of str
-        Directions held: a subset of x y z.
-    stiffness : dict of float
-        N/m, springs in directions not fixed.
-    """
-
-    x: float
-    length: float
-    point: int
-    arm: float = 0.0
-    fixed: tuple[str, ...] = ("z",)
-    stiffness: dict[str, float] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, eq=False)
-class ShellModes:
-    """Natural modes of a shell, ascending.
-
-    The rule of the names: local where the local part of the kinetic energy exceeds a half; axial-bending where the axial part
-    is between a quarter and three quarters of axial and vertical together, and both are more than the rest; else the kind
-    of the largest part.
-
-    Attributes
-    ----------
-    frequencies_hz : ndarray, shape (m,)
-    names : tuple of str
-        ``vertical bending 1``, ``axial-bending 1``, ``local plate 1`` ..., numbered within each kind.
-    shares : dict of ndarray, shape (m,)
-        Parts of the kinetic energy: vertical, lateral, torsion, axial, local; their sum is 1.
-    motions : ndarray, shape (stations, 6, m)
-        The section's rigid motion about its centre of mass: x y z roll pitch yaw, mass-normalised.
-    parts : tuple of str
-        Which part of the section moves most in the local share: slab, cantilevers ...
-    even : ndarray of bool, shape (m,)
-        Whether left and right move alike (mirror image); vertical modes are, torsion is not.
-    vectors : ndarray, shape (nodes, 6, m)
-        All displacements and rotations, mass-normalised.
-    """
-
-    frequencies_hz: np.ndarray
-    names: tuple[str, ...]
-    shares: dict[str, np.ndarray]
-    motions: np.ndarray = field(repr=False)
-    parts: tuple[str, ...] = field(repr=False)
-    even: np.ndarray = field(repr=False)
-    vectors: np.ndarray = field(repr=False)
-
-    def to_frame(self):
-        """Return a pandas DataFrame with one row a mode: frequency, name, where it is local, shares of energy in percent."""
-        import pandas as pd
-
-        columns = {"frequency (Hz)": self.frequencies_hz, "name": self.names, "most local in": self.parts}
-        columns |= {f"{k} (%)": 100 * v for k, v in self.shares.items()}
-        return pd.DataFrame(columns, index=pd.RangeIndex(1, len(self.names) + 1, name="mode"))
 
 
 def _fem():
@@ -229,13 +147,11 @@ class Shell:
         for i, pad in enumerate(self.pads, start=1):
             inputs.number(f"shell: pad {i}: x", pad.x, least=start, most=end, unit="m", remedy="It lies off the deck")
             inputs.number(f"shell: pad {i}: length", pad.length, above=0.0, unit="m")
-        motions = np.array([row for row, _ in self._held_rigidly])
-        scale = np.array([1.0, 1.0, 1.0, *([1.0 / (end - start)] * 3)])
-        rank = np.linalg.matrix_rank(motions * scale, tol=1e-6) if len(motions) else 0
-        if rank < 6:
-            held = [(p.x, " ".join((*p.fixed, *p.stiffness))) for p in self.pads]
+        free = free_count(self._held, self.nodes, end - start)
+        if free:
+            given = [(p.x, " ".join((*p.fixed, *p.stiffness))) for p in self.pads]
             raise InputError(
-                "shell: bearings", held, f"leave {6 - rank} ways to move as a rigid body, so it is a mechanism",
+                "shell: bearings", given, f"leave {free} ways to move as a rigid body, so it is a mechanism",
                 "Hold x once, and y and z at two places",
             )  # fmt: skip
 
@@ -345,91 +261,11 @@ class Shell:
 
     @cached_property
     def _held(self) -> list[tuple[csr_array, float]]:
-        """What each pad holds: a row over all freedoms that gives the mean displacement, and its stiffness (inf: rigid)."""
-        result = []
-        for pad in self.pads:
-            for direction in _DIRECTIONS:
-                if direction in pad.fixed or direction in pad.stiffness:
-                    result.append((self._mean(pad, direction), np.inf if direction in pad.fixed else pad.stiffness[direction]))
-        return result
-
-    def _mean(self, pad: Pad, direction: str) -> csr_array:
-        """Return the row that gives the pad's mean displacement in one direction.
-
-        The pad hangs `arm` below the point and turns with it: along x by the slope of the foot over the pad (the straight
-        line nearest to w), along y by the mean roll of the foot.
-        """
-        node, mean, slope = self._over(pad)
-        d = _DIRECTIONS.index(direction)
-        entries = {int(6 * n + d): m for n, m in zip(node, mean, strict=True)}
-        if pad.arm and direction == "x":
-            # theta_y = -w', and the point lies at (0, 0, -arm): u_x + theta_y (-arm).
-            entries |= {int(6 * n + 2): pad.arm * s for n, s in zip(node, slope, strict=True)}
-        elif pad.arm and direction == "y":
-            entries |= {int(6 * n + 3): pad.arm * m for n, m in zip(node, mean, strict=True)}
-        columns = np.array(list(entries))
-        return csr_array((list(entries.values()), ([0] * len(columns), columns)), shape=(1, 6 * len(self.nodes)))
-
-    def _over(self, pad: Pad) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the nodes under a pad and weights that give mean and slope of a linear field over it."""
-        x = self.stations
-        a, b = max(pad.x - pad.length / 2, x[0]), min(pad.x + pad.length / 2, x[-1])
-        cuts = np.unique(np.concatenate([[a, b], x[(x > a) & (x < b)]]))
-        # Two Gauss points integrate products of linear functions exactly on each piece.
-        half, middle = np.diff(cuts)[:, None] / 2, (cuts[:-1, None] + cuts[1:, None]) / 2
-        places = (middle + half * np.array([-1.0, 1.0]) / np.sqrt(3.0)).ravel()
-        weights = np.repeat(half.ravel(), 2) / (b - a)
-        shape = np.zeros((len(places), len(x)))
-        right = np.clip(np.searchsorted(x, places), 1, len(x) - 1)
-        share = (places - x[right - 1]) / (x[right] - x[right - 1])
-        shape[np.arange(len(places)), right] = share
-        shape[np.arange(len(places)), right - 1] = 1.0 - share
-        lever = places - weights @ places
-        mean, slope = weights @ shape, (weights * lever) @ shape / (weights @ lever**2)
-        used = np.flatnonzero(shape.any(axis=0))
-        return used * len(self.points) + pad.point, mean[used], slope[used]
-
-    @cached_property
-    def _held_rigidly(self) -> list[tuple[np.ndarray, float]]:
-        """What each held row makes of the six rigid-body motions, shape (6,)."""
-        x, y, z = (self.nodes - self.nodes.mean(axis=0)).T
-        zero, one = np.zeros(len(x)), np.ones(len(x))
-        motions = np.zeros((len(x), 6, 6))
-        for k in range(3):
-            motions[:, k, k] = one
-            motions[:, 3 + k, 3 + k] = one
-        motions[:, :3, 3] = np.stack([zero, -z, y], axis=1)
-        motions[:, :3, 4] = np.stack([z, zero, -x], axis=1)
-        motions[:, :3, 5] = np.stack([-y, x, zero], axis=1)
-        flat = motions.reshape(-1, 6)
-        return [((row @ flat).ravel(), stiffness) for row, stiffness in self._held]
+        return held(self.pads, self.stations, len(self.points), 6 * len(self.nodes))
 
     @cached_property
     def _turn(self) -> tuple[csr_array, np.ndarray]:
-        """What turns the freedoms that rigid bearings leave into all freedoms, and which are left."""
-        size = 6 * len(self.nodes)
-        rigid = [row for row, stiffness in self._held if np.isinf(stiffness)]
-        if not rigid:
-            return eye_array(size, format="csr"), np.arange(size)
-        rows = vstack(rigid).tocsr()
-        used = np.unique(rows.indices)
-        block = rows[:, used].toarray()
-        # One freedom of each condition follows from the others: that with the largest weight not yet taken.
-        gone: list[int] = []
-        work = block.copy()
-        for r in range(len(work)):
-            pivot = int(np.argmax(np.abs(work[r])))
-            gone.append(pivot)
-            others = np.arange(len(work)) != r
-            work[others] -= np.outer(work[others, pivot] / work[r, pivot], work[r])
-        kept = np.setdiff1d(np.arange(len(used)), gone)
-        follow = -np.linalg.solve(block[:, gone], block[:, kept])
-        left = np.setdiff1d(np.arange(size), used[gone])
-        place = np.searchsorted(left, used[kept])
-        rows = np.concatenate([left, np.repeat(used[gone], len(kept))])
-        columns = np.concatenate([np.arange(len(left)), np.tile(place, len(gone))])
-        values = np.concatenate([np.ones(len(left)), follow.ravel()])
-        return csr_array((values, (rows, columns)), shape=(size, len(left))), left
+        return elimination(self._held, 6 * len(self.nodes))
 
     @cached_property
     def _reduced(self) -> tuple[csc_array, csc_array]:
@@ -462,7 +298,7 @@ class Shell:
         full = (self._turn[0] @ vectors[:, order]).reshape(len(self.nodes), 6, count)
         large = np.abs(full[:, :3]).reshape(-1, count)
         sign = np.sign(full[:, :3].reshape(-1, count)[np.argmax(large > 0.5 * large.max(axis=0), axis=0), np.arange(count)])
-        return self._described(np.sqrt(squares[order]) / (2 * np.pi), full * sign)
+        return described(self, np.sqrt(squares[order]) / (2 * np.pi), full * sign)
 
     def quotients(self, vectors: np.ndarray) -> np.ndarray:
         """Return Rayleigh's quotients of given shapes, as frequencies, Hz.
@@ -514,75 +350,6 @@ class Shell:
         m = self.point_masses
         return np.array([m.sum()] * 3 + [m @ (y**2 + z**2), m @ z**2, m @ y**2])
 
-    def section_motions(self, vectors: np.ndarray) -> np.ndarray:
-        """Return the rigid motion of each section about its centre of mass that is nearest to nodal vectors.
-
-        Parameters
-        ----------
-        vectors : ndarray, shape (nodes, 6, m)
-
-        Returns
-        -------
-        ndarray, shape (stations, 6, m)
-            x y z roll pitch yaw, by least squares with the mass.
-        """
-        moved = self._sectionwise(vectors)
-        y, z = (self.points - self.centre).T
-        zero, one = np.zeros_like(y), np.ones_like(y)
-        rigid = np.stack(
-            [
-                np.stack([one, zero, zero, zero, z, -y]),
-                np.stack([zero, one, zero, -z, zero, zero]),
-                np.stack([zero, zero, one, y, zero, zero]),
-            ],
-            axis=1,
-        )  # (6, 3, points)
-        weighted = rigid * self.point_masses
-        gram = np.einsum("acp,bcp->ab", weighted, rigid)
-        return np.einsum("ab,bcp,spcm->sam", np.linalg.pinv(gram), weighted, moved)
-
-    def _sectionwise(self, vectors: np.ndarray) -> np.ndarray:
-        """Displacements of the section's points, shape (stations, points, 3, m)."""
-        count = len(self.stations) * len(self.points)
-        return vectors[:count, :3].reshape(len(self.stations), len(self.points), 3, -1)
-
-    def _described(self, frequencies: np.ndarray, vectors: np.ndarray) -> ShellModes:
-        """Attach names, shares of energy and section motions to modes."""
-        motions, moved = self.section_motions(vectors), self._sectionwise(vectors)
-        parts = np.einsum("s,a,sam->am", self.tributary, self.inertias, motions**2)
-        total = np.einsum("s,p,spcm->m", self.tributary, self.point_masses, moved**2)
-        x, y, z, roll, pitch, yaw = parts / total
-        shares = {"vertical": z + pitch, "lateral": y + yaw, "torsion": roll, "axial": x}
-        shares["local"] = np.clip(1.0 - sum(shares.values()), 0.0, None)
-        names, seen = [], dict.fromkeys(_LABELS, 0)
-        for i in range(len(frequencies)):
-            kind = _kind({k: float(v[i]) for k, v in shares.items()})
-            seen[kind] += 1
-            names.append(f"{_LABELS[kind]} {seen[kind]}")
-        return ShellModes(frequencies, tuple(names), shares, motions, self._liveliest(moved), self._even(moved), vectors)
-
-    def _liveliest(self, moved: np.ndarray) -> tuple[str, ...]:
-        """Name the part of the section that moves most, by mean square displacement, in each mode."""
-        square = np.einsum("s,spcm->pm", self.tributary, moved**2)
-        names = list(dict.fromkeys(s.part for s in self.strips if s.counted))
-        means = []
-        for name in names:
-            own = [s for s in self.strips if s.part == name]
-            lengths = np.array([np.linalg.norm(self.points[s.end] - self.points[s.start]) for s in own])
-            values = np.array([(square[s.start] + square[s.end]) / 2 for s in own])
-            means.append(lengths @ values / lengths.sum())
-        return tuple(names[i] for i in np.argmax(means, axis=0))
-
-    def _even(self, moved: np.ndarray) -> np.ndarray:
-        """Whether each mode is its own mirror image rather than its opposite; all true for a section without mirror."""
-        mirrored = self.points * [-1.0, 1.0]
-        away = np.linalg.norm(self.points[:, None] - mirrored[None], axis=2)
-        twin = np.argmin(away, axis=0)
-        if away[twin, np.arange(len(twin))].max() > 1e-6:
-            return np.ones(moved.shape[-1], dtype=bool)
-        product = np.einsum("c,p,spcm,spcm->m", [1.0, -1.0, 1.0], self.point_masses, moved, moved[:, twin])
-        return product >= 0.0
-
     def shapes(self, vectors: np.ndarray, points: tuple[int, int], start: float, end: float) -> PiecewiseCubic:
         """Return shapes along the deck as the line through two points of the section moves.
 
@@ -597,7 +364,7 @@ class Shell:
         start, end : float
             m, the range of x, both stations.
         """
-        moved = self._sectionwise(vectors)
+        moved = sectionwise(self, vectors)
         left, right = moved[:, points[0]], moved[:, points[1]]
         apart = self.points[points[0], 0] - self.points[points[1], 0]
         middle = (left + right) / 2
@@ -609,12 +376,3 @@ class Shell:
         # CubicSpline keeps the highest power first, of x - edge in m.
         powers = spline.c[::-1, inside[:-1]].transpose(1, 0, 2, 3)
         return PiecewiseCubic(edges - start, powers * h[:, None, None, None] ** np.arange(4)[:, None, None])
-
-
-def _kind(shares: dict[str, float]) -> str:
-    if shares["local"] > 0.5:
-        return "local"
-    along = shares["axial"] + shares["vertical"]
-    if along > 0.5 and 0.25 <= shares["axial"] / along <= 0.75:
-        return "mixed"
-    return max(("vertical", "lateral", "torsion", "axial"), key=lambda k: shares[k])
