@@ -10,6 +10,7 @@ import pytest
 import railbridge as rb
 from railbridge import plots
 from railbridge.plots import drawing
+from railbridge.plots.style import second
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +72,7 @@ def figures(case, run):
     }
 
 
-FIGURES = [name for name in plots.__all__ if not name.startswith("animate_")]
+FIGURES = [name for name in plots.__all__ if callable(getattr(plots, name)) and not name.startswith("animate_")]
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -170,6 +171,21 @@ def test_a_live_figure_moves_its_curves(run):
     plots.displacement(run.at(0), 18.0, ax=ax)
     assert len(ax.get_children()) == count
     assert not np.array_equal(before, ax.lines[0].get_ydata())
+
+
+def test_own_drawings_of_a_notebook_take_the_colours_of_the_suite():
+    with mpl.style.context(plots.STYLE):
+        ax = mpl.figure.Figure().add_subplot()
+        for i, colour in enumerate(drawing.COMPARED):
+            assert ax.plot([0, 1], [0, i])[0].get_color() == colour
+        assert not ax.spines["top"].get_visible()
+
+
+def test_second_shades_can_be_told_from_the_first():
+    for colour in {v.colour for v in drawing.LOOKS.values()}:
+        first, other = (np.array(mpl.colors.to_rgb(c)) for c in (colour, second(colour)))
+        assert np.abs(first - other).max() > 0.25, colour
+        assert np.array_equal(np.argsort(first)[[0, -1]], np.argsort(other)[[0, -1]]) or len(set(first)) == 1, colour
 
 
 def test_public_functions_take_axes():

@@ -2,7 +2,7 @@
 
 Without axes a function makes a figure of notebook width. It never shows it and changes no settings, so figures can be
 composed: give the axes of ``plt.subplots``; the two that move return an `Animation` instead. Looks and units are those of
-`drawing.LOOKS`: kN, kN m and mm.
+`drawing.LOOKS`: kN, kN m and mm. ``plt.style.use(rb.plots.STYLE)`` gives a notebook's own drawings the same looks.
 """
 
 from .animation import animate_crossing, animate_vehicle_mode
@@ -21,10 +21,11 @@ from .response import (
 )
 from .shells import assurance, box_section, shell_mode, shell_modes
 from .sketches import train_on_deck, vehicle, vehicle_mode
+from .style import STYLE
 from .track import frequencies, irregularity, notch, slope, wheel_paths, wheels_on_track
 
 __all__ = [
-    "acceleration", "animate_crossing", "animate_vehicle_mode", "assurance", "box_section", "car_forces", "convergence",
+    "STYLE", "acceleration", "animate_crossing", "animate_vehicle_mode", "assurance", "box_section", "car_forces", "convergence",
     "damping", "deck_mode", "deck_modes", "deviations", "displacement", "frequencies", "influence_line", "irregularity",
     "iterations", "load_modes", "notch", "reactions", "section_force", "shell_mode", "shell_modes", "slope", "spectra",
     "spectrum", "train_on_deck", "vehicle", "vehicle_mode", "velocity", "wheel_force", "wheel_forces", "wheel_paths",

@@ -11,7 +11,8 @@ from ..crossing import Crossing
 from ..inputs import InputError
 from ..spectra import Spectrum, deviation_percent
 from ..train import CONDENSED
-from .drawing import COMPARED, GREY, TIME, curve, finish, grid, look, mark, one, shade
+from .drawing import GREY, TIME, curve, finish, grid, look, mark, one, shade
+from .style import second
 
 
 def wheel_force(run: Crossing, car: int = 1, wheel: int = 1, ax: Axes | None = None) -> Axes:
@@ -49,7 +50,7 @@ def wheel_forces(run: Crossing, car: int = 1, axes: Sequence[Axes] | None = None
             for row, name in enumerate(("force_y", "force_z")):
                 style = look(name)
                 label = f"{style.words}, {w.side}" if number == 1 else None
-                colour = style.colour if w.side == "left" else COMPARED[0]
+                colour = style.colour if w.side == "left" else second(style.colour)
                 curve(ax, f"{name} {w.side}", run.time, style.factor * run.wheel_forces[i, row], label=label, color=colour,
                       ls=style.line, lw=2.4 if w.side == "left" else 1.0)  # fmt: skip
         finish(ax, TIME if ax is axes[-1] else "", "force (kN)", f"axle {number}")

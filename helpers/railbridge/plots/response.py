@@ -13,6 +13,7 @@ from ..inputs import InputError
 from ..train import CONDENSED
 from .drawing import COMPARED, GREY, TIME, curve, finish, grid, is_live, look, note, one, shade
 from .forces import shade_car, shade_train
+from .style import second
 
 
 def displacement(
@@ -73,7 +74,9 @@ def reactions(run: Crossing, ax: Axes | None = None, quantity: str = "force_z", 
     inputs.choice("quantity", quantity, ("force_y", "force_z", "moment_x"))
     style = look(f"reaction_{quantity[-1]}")
     shade_train(run, ax)
-    for (support, history), colour in zip(run.reactions(self_weight).items(), (style.colour, *COMPARED), strict=False):
+    for (support, history), colour in zip(
+        run.reactions(self_weight).items(), (style.colour, second(style.colour), *COMPARED), strict=False
+    ):
         label = f"bearing at {support:g} m"
         curve(ax, label, run.time, style.factor * history[quantity], label=label, color=colour, ls=style.line)
     return finish(ax, TIME, style.label)

@@ -134,7 +134,7 @@ def shell_mode(shell: Shell, modes: ShellModes, mode: int, ax: Axes | None = Non
         aspect="equal",
         xticks=[],
         yticks=[],
-        xlabel=f"length {shell.stations[-1] - shell.stations[0]:.1f}, drawn motion up to {scale:g} (m)",
+        xlabel=f"length {shell.stations[-1] - shell.stations[0]:.1f} (m), motion drawn up to {scale:g} (m)",
     )
     ax.spines[:].set_visible(False)
     return ax

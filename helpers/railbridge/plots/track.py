@@ -14,6 +14,7 @@ from ..track import FadeIn, Notch, Track
 from ..train import AxleTrain, Train
 from ..vehicle import Vehicle
 from .drawing import ALONG, COMPARED, TIME, curve, finish, is_live, log_frequencies, look, note, one, rung, shade
+from .style import second
 
 
 def irregularity(
@@ -58,7 +59,7 @@ def irregularity(
             if side == "right" and same:
                 continue
             label = direction if same else f"{direction}, {side} rail"
-            colour = style.colour if side == "left" else COMPARED[0]
+            colour = style.colour if side == "left" else second(style.colour)
             curve(ax, label, x, style.factor * value, label=label, color=colour, ls=style.line)
     word = "irregularity r" if _quantity == "irregularity" else "slope dr/dx"
     return finish(ax, ALONG, f"{word} ({look(f'{_quantity}_vertical').unit})")
@@ -162,7 +163,7 @@ def frequencies(
     curve(ax, "natural", np.repeat(shown, 3), np.tile([0.0, 1.0, np.nan], len(shown)), color=style.colour)
     for i, (f, near) in enumerate(groups):
         text = " \n".join(list(dict.fromkeys(near))[:2]) + " "
-        note(ax, f"name {i}", text, f, 0.96, data_x=True, rotation=90, ha="right", size=7.5, color=style.colour)
+        note(ax, f"name {i}", text, f, 0.96, data_x=True, rotation=90, ha="right", size=8.5, color="k")
     force = look("force_z")
     for name, f in (mark or {}).items():
         curve(ax, f"mark {name}", [f, f], [0.0, 1.0], label=f"{name} {f:.4g} Hz", color=force.colour, lw=2.5)
@@ -175,5 +176,6 @@ def frequencies(
 
 
 def _named_frequencies(modes) -> tuple[np.ndarray, tuple[str, ...]]:
-    """Names without front and rear: those two mix freely."""
-    return modes.frequencies_hz, tuple(" ".join(n.split()[-2:]) for n in modes.names)
+    """Names without front and rear, which mix freely; y and z in words."""
+    words = {"y": "sway", "z": "bounce"}
+    return modes.frequencies_hz, tuple(" ".join(words.get(part, part) for part in n.split()[-2:]) for n in modes.names)
