@@ -9,7 +9,7 @@ import json
 import time
 from pathlib import Path
 
-from railbridge import identification, inputs
+from railbridge import fitting, identification, inputs
 
 DECK = """\
 # The deck of the paper's case study as ONE BOX THAT FITS: IDENTIFIED, NOT KNOWN. Figure 6 (section and properties) is missing.
@@ -73,7 +73,7 @@ def main() -> None:
     def progress(line: str) -> None:
         print(f"{time.monotonic() - begin:6.0f} s  {line}", flush=True)
 
-    result = identification.identify(options.starts, options.seed, progress=progress)
+    result = fitting.identify(options.starts, options.seed, progress=progress)
     for folder, name, content in (
         ("identification", f"{identification.SINGLE}.json", json.dumps(result, indent=1) + "\n"),
         ("decks", f"{identification.SINGLE}.toml", deck_file(result["best"])),
