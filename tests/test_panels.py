@@ -2,6 +2,7 @@
 
 import asyncio
 import io
+from base64 import b64decode
 
 import numpy as np
 import pytest
@@ -27,7 +28,7 @@ def panel(request, all_panels):
 
 
 def png(panel):
-    return bytes(panel.image.value)
+    return b64decode(bytes(panel.image.value).removeprefix(b"data:image/png;base64,"), validate=True)
 
 
 def picture(panel):

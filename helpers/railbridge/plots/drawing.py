@@ -183,8 +183,10 @@ def note(ax: Axes, name: str, text: str, x: float, y: float, data_x: bool = Fals
     artist.set(text=text, position=(x, y), **options)
 
 
-def finish(ax: Axes, x: str | None = None, y: str | None = None, title: str | None = None, legend: bool = True) -> Axes:
-    """Label an axes, put its legend above it where it covers nothing, and fit a live axes to its data."""
+def finish(
+    ax: Axes, x: str | None = None, y: str | None = None, title: str | None = None, legend: bool = True, fit: bool = True
+) -> Axes:
+    """Label an axes, put its legend above it where it covers nothing, and fit a live axes to its data unless told not to."""
     if y is not None and len(y) > 12 * ax.get_position().height * ax.figure.get_figheight():
         y = y.replace(" (", "\n(")
     for text, now, put in ((x, ax.get_xlabel, ax.set_xlabel), (y, ax.get_ylabel, ax.set_ylabel)):
@@ -207,7 +209,7 @@ def finish(ax: Axes, x: str | None = None, y: str | None = None, title: str | No
     if not is_live(ax) and ax.get_xscale() == "linear":
         ax.margins(x=0.0)
     ax.spines[["top", "right"]].set_visible(False)
-    if is_live(ax):
+    if fit and is_live(ax):
         _fit(ax)
     return ax
 

@@ -99,7 +99,7 @@ class Picture:
         rows = slice(max(int(height - area.y1) - 1, 0), int(height - area.y0) + 2)
         self._pixels[rows, max(int(area.x0) - 1, 0) : int(area.x1) + 2] = 255
         self._draw_kept(ax)
-        np.copyto(self._background, self._pixels)
+        self._keep()
         self._boxes[ax] = box
         return True
 
@@ -115,23 +115,35 @@ class Picture:
         for ax in axes:
             self._boxes[ax] = ax.get_tightbbox(self._renderer)
             self._draw_kept(ax)
+        self._keep()
+
+    def _keep(self) -> None:
+        """Keep what stands on the page as background, in pixels and in colours of the palette."""
         self._background = self._pixels.copy()
+        self._indexed = _nearest(self._background.view("<u4").ravel())
 
     def _draw_kept(self, ax: Axes) -> None:
         _draw(self._renderer, [a for a in ax.get_children() if not self._moves(a)])
         self._keys[ax] = self._key(ax)
 
     def _encoded(self) -> bytes:
-        packed = self._pixels.view("<u4")[:, :, 0]
-        code = (packed >> 3) & 0x1F
-        code |= (packed >> 6) & 0x3E0
-        code |= (packed >> 9) & 0x7C00
+        packed, before = (pixels.view("<u4").ravel() for pixels in (self._pixels, self._background))
+        changed = np.flatnonzero(packed != before)
+        index = self._indexed.copy()
+        index[changed] = _nearest(packed[changed])
         buffer = BytesIO()
-        palette, index = _colours()
-        with Image.fromarray(index[code]) as picture:
-            picture.putpalette(palette)
+        with Image.fromarray(index.reshape(self._pixels.shape[:2])) as picture:
+            picture.putpalette(_colours()[0])
             picture.save(buffer, "png", compress_level=1)
         return buffer.getvalue()
+
+
+def _nearest(packed: np.ndarray) -> np.ndarray:
+    """Return the place in the palette of every pixel, red in the lowest byte."""
+    code = (packed >> 3) & 0x1F
+    code |= (packed >> 6) & 0x3E0
+    code |= (packed >> 9) & 0x7C00
+    return _colours()[1][code]
 
 
 @lru_cache(maxsize=1)

@@ -62,9 +62,10 @@ def crossing_at(run: Crossing, position: float, ax: Axes | None = None) -> Axes:
             places.append(x.mean())
             heights.append(level(x).mean())
             bogies.append([[x.min() - 0.6, x.max() + 0.6, np.nan], [heights[-1] + 0.8] * 3])
-        tilt = np.polyfit(places, heights, 1) if len(places) > 1 else np.array([0.0, heights[0]])
+        # The car body lies as its outermost bogies do.
+        tilt = (heights[0] - heights[-1]) / (places[0] - places[-1]) if len(places) > 1 else 0.0
         x = middle + 0.47 * car.length * np.array([-1, 1, 1, -1, -1, np.nan])
-        cars.append([x, np.polyval(tilt, x) + np.array([1.3, 1.3, 3.9, 3.9, 1.3, np.nan])])
+        cars.append([x, heights[0] + tilt * (x - places[0]) + np.array([1.3, 1.3, 3.9, 3.9, 1.3, np.nan])])
     for name, parts, width in (("bogies", bogies, 3.0), ("cars", cars, 1.6)):
         x, y = np.concatenate([np.array(p, dtype=float) for p in parts], axis=1) if parts else ([], [])
         curve(ax, name, x, y, color=_TRAIN, lw=width)
@@ -72,8 +73,9 @@ def crossing_at(run: Crossing, position: float, ax: Axes | None = None) -> Axes:
         ax, "times", f"displacement of the deck drawn {times:g} times too large", 0.005, 0.02, va="bottom", color=_DECK, size=9.5
     )
     note(ax, "name", f"{deck.name}, {deck.length:g} m", 0.995, 0.02, ha="right", va="bottom", size=9.5)
-    finish(ax, ALONG, legend=False)
-    ax.set(xlim=(start, end), ylim=(-3.6, 4.6), yticks=[])
+    finish(ax, ALONG, legend=False, fit=False)
+    if (*ax.get_xlim(), *ax.get_ylim()) != (start, end, -3.6, 4.6):
+        ax.set(xlim=(start, end), ylim=(-3.6, 4.6), yticks=[])
     ax.spines["left"].set_visible(False)
     return ax
 
