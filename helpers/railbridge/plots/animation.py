@@ -1,101 +1,26 @@
-"""Moving pictures: a mode of a vehicle, and a train over the deforming deck.
-
-An `Animation` is a piece of HTML that holds a vector drawing, the numbers that move it and a player of a few lines. It needs
-no program, no network and no server, is some tens of kilobytes, and starts paused. Where scripts are not run (an untrusted
-notebook, a page on a forge) its first picture stands still. With reduced motion asked for, the player steps instead of playing.
-"""
+"""Moving pictures: a mode of a vehicle, and a train over the deforming deck; see `player` for what plays them."""
 
 from __future__ import annotations
-
-import hashlib
-import json
-from base64 import b64encode
-from collections.abc import Iterable
-from dataclasses import dataclass, field
-from html import escape
-from pathlib import Path
 
 import numpy as np
 
 from .. import inputs
 from ..crossing import Crossing
-from ..inputs import InputError
 from ..vehicle import FREEDOMS, Modes, Vehicle
 from .drawing import GREY, LOOKS, PALE
+from .player import INK, WIDE, Animation, Drawing, attributes, corners, mark, page, rounded
 from .sketches import VIEWS, body_boxes, body_levels, extent, mode_motion, moved, same_frequency, spring_ends, what_moves, zigzag
 
 __all__ = ["Animation", "animate_crossing", "animate_vehicle_mode"]
 
-WIDE = 900  # px, as the other figures
 CYCLE = 2.5  # s, for one cycle of a mode
-_INK, _DECK = "#222222", "#34495e"
+FEWEST, MOST = 4, 600
+"""Frames of an animation."""
+_DECK = "#34495e"
 _MOTION, _FORCE = LOOKS["displacement_z"].colour, LOOKS["force_z"].colour
 _NAMES = dict(zip(FREEDOMS, ("sway", "bounce", "roll", "pitch", "yaw"), strict=True))
 
-# `D` is the data, `draw(f)` moves the drawing to frame f, which need not be whole, and returns what to say about it.
-_PLAYER = """
-(() => {
-const D = __DATA__;
-for (const root of document.querySelectorAll('[data-animation="__KEY__"]')) {
-  if (root.dataset.ready) continue;
-  root.dataset.ready = "yes";
-  const still = root.querySelector("img"), all = s => [...svg.querySelectorAll(s)];
-  const parsed = new DOMParser().parseFromString(atob(still.src.split(",")[1]), "image/svg+xml");
-  const svg = document.importNode(parsed.documentElement, true);
-  still.replaceWith(svg);
-  svg.setAttribute("aria-label", still.alt);
-__DRAW__
-  const bar = document.createElement("div"), button = document.createElement("button");
-  const slider = document.createElement("input"), says = document.createElement("span");
-  // JupyterLab then leaves arrow keys to the slider; it asks the focused element itself.
-  for (const control of [button, slider]) control.dataset.lmSuppressShortcuts = "true";
-  bar.style.cssText = "display:flex;flex-wrap:wrap;gap:10px;align-items:center;padding:4px 10px";
-  button.type = "button";
-  button.style.cssText = "min-width:5.5em;font:inherit;padding:3px 8px;color:#222;background:#eee;border:1px solid #777;"
-    + "border-radius:4px;cursor:pointer";
-  Object.assign(slider, {type: "range", min: 0, max: D.frames - 1, step: 1});
-  slider.style.cssText = "flex:1;min-width:120px;accent-color:#0072B2";
-  slider.setAttribute("aria-label", D.slider);
-  says.style.cssText = "min-width:15em;font-variant-numeric:tabular-nums";
-  const calm = matchMedia("(prefers-reduced-motion: reduce)"), last = D.loop ? D.frames : D.frames - 1;
-  let at = D.start, before = null;
-  const show = () => {
-    const words = draw(at);
-    says.textContent = words;
-    slider.value = Math.round(at);
-    slider.setAttribute("aria-valuetext", words);
-    const name = before !== null ? "Pause" : calm.matches ? "Step" : "Play";
-    if (button.textContent !== name) {
-      button.textContent = name;
-      button.setAttribute("aria-label", name + " animation");
-    }
-  };
-  const tick = now => {
-    if (before === null || !svg.isConnected) return;
-    at += (now - before) / 1000 * last / D.seconds;
-    before = now;
-    if (at >= last) { if (D.loop) at %= last; else { at = last; before = null; } }
-    show();
-    if (before !== null) requestAnimationFrame(tick);
-  };
-  button.onclick = () => {
-    if (before !== null) before = null;
-    else if (calm.matches) at = at >= D.frames - 1 ? 0 : Math.min(D.frames - 1, Math.round(at + D.frames / 24));
-    else {
-      if (!D.loop && at >= last) at = 0;
-      before = performance.now();
-      requestAnimationFrame(tick);
-    }
-    show();
-  };
-  slider.oninput = () => { before = null; at = +slider.value; show(); };
-  bar.append(button, slider, says);
-  svg.after(bar);
-  root.querySelector("[data-still]").remove();
-  show();
-}
-})();
-"""
+# What `player` calls draw.
 _DRAW_MODE = """
   const parts = all("[data-part]");
   const draw = f => {
@@ -132,44 +57,6 @@ _DRAW_CROSSING = """
 """
 
 
-@dataclass(frozen=True)
-class Animation:
-    """A moving picture that a notebook shows and plays; paused at first.
-
-    Attributes
-    ----------
-    title : str
-        What is shown, with its number of frames.
-    frames : int
-        Positions of the slider.
-    html : str
-        The picture, its numbers and its player; stands alone in any page.
-    """
-
-    title: str
-    frames: int
-    html: str = field(repr=False)
-
-    def __repr__(self) -> str:
-        return f"Animation: {self.title}, {self.frames} frames"
-
-    def _repr_html_(self) -> str:
-        return self.html
-
-    def save(self, path: str | Path) -> None:
-        """Write a page of its own, for projecting or sending; `path` ends in ``.html``.
-
-        Raises
-        ------
-        InputError
-            Another ending.
-        """
-        if Path(path).suffix != ".html":
-            raise InputError("path", str(path), "must end in .html")
-        head = f'<!doctype html>\n<html lang="en">\n<meta charset="utf-8">\n<title>{escape(self.title)}</title>\n'
-        Path(path).write_text(head + self.html + "\n</html>\n", encoding="utf-8")
-
-
 def animate_vehicle_mode(vehicle: Vehicle, mode: int, frames: int = 24) -> Animation:
     """Animate a natural mode of a vehicle, from the side, from above and looking forward.
 
@@ -184,16 +71,12 @@ def animate_vehicle_mode(vehicle: Vehicle, mode: int, frames: int = 24) -> Anima
     frames : int
         Pictures a cycle, 4 to 600; between them the player interpolates.
 
-    Returns
-    -------
-    Animation
-
     Raises
     ------
     InputError
         No such mode, or a number of frames out of range.
     """
-    frames = inputs.integer("frames", frames, least=4, most=600)
+    frames = inputs.integer("frames", frames, least=FEWEST, most=MOST)
     modes, motion = mode_motion(vehicle, mode)
     frequency, name = modes.frequencies_hz[mode - 1], _kind(vehicle, modes, mode - 1)
     drawing, rest, move, largest = _mode_drawing(vehicle, motion)
@@ -209,8 +92,8 @@ def animate_vehicle_mode(vehicle: Vehicle, mode: int, frames: int = 24) -> Anima
         "frames": frames, "start": frames // 4, "loop": True, "seconds": CYCLE, "period": round(1 / frequency, 6),
         "slider": "Time within one cycle", "rest": rest, "move": move,
     }  # fmt: skip
-    svg = _svg(drawing.height, [*drawing.items, _text(10, drawing.height - 8, note, size=13)])
-    return Animation(title, frames, _page(svg, title, words, data, _DRAW_MODE))
+    drawing.write(10, drawing.height - 8, note, size=13)
+    return Animation(title, frames, page(drawing, title, words, data, _DRAW_MODE))
 
 
 def animate_crossing(run: Crossing, x: float | None = None, frames: int = 360, exaggeration: float | None = None) -> Animation:
@@ -227,17 +110,13 @@ def animate_crossing(run: Crossing, x: float | None = None, frames: int = 360, e
     exaggeration : float, optional
         How many times too large the vertical displacement is drawn; by default a round number that lets it be seen.
 
-    Returns
-    -------
-    Animation
-
     Raises
     ------
     InputError
         A place off the deck, a number of frames out of range, or an exaggeration that is not positive.
     """
     deck, train, speed = run.deck, run.train, run.settings.speed
-    frames = inputs.integer("frames", frames, least=4, most=600)
+    frames = inputs.integer("frames", frames, least=FEWEST, most=MOST)
     x = deck.length / 2 if x is None else inputs.number("x", x, least=0.0, most=deck.length, unit="m")
     if exaggeration is not None:
         exaggeration = inputs.number("exaggeration", exaggeration, above=0.0, remedy="1 draws it true to scale")
@@ -253,14 +132,14 @@ def animate_crossing(run: Crossing, x: float | None = None, frames: int = 360, e
     data = {
         "frames": frames, "start": int(np.abs(shape).max(axis=1).argmax()), "loop": False, "slider": "Time of the crossing",
         "seconds": round(float(np.clip(stop, 6.0, 20.0)), 3),
-        "deck": _rounded(-exaggeration * scale * shape), "time": _rounded(time, 3),
-        "value": _rounded(1e3 * history["displacement_z"][sample], 3),
+        "deck": rounded(-exaggeration * scale * shape), "time": rounded(time, 3),
+        "value": rounded(1e3 * history["displacement_z"][sample], 3),
     }  # fmt: skip
-    drawing = _Drawing(372)
+    drawing = Drawing(372)
     rest = _draw_bridge(drawing, data, run, scale, time, sample)
     _draw_history(drawing, data, run, x, time)
     factor, sag = f"{exaggeration:.6g}", history.extreme("displacement_z")
-    drawing.items.append(_text(10, 18, f"vertical displacement drawn {factor} times too large", size=13))
+    drawing.write(10, 18, f"vertical displacement drawn {factor} times too large", size=13)
     words = (
         f"{_who(run)} over {deck.name}, {deck.length:g} m, at {speed:g} m/s ({3.6 * speed:.4g} km/h). Vertical displacement is "
         f"drawn {factor} times too large, the waves of the rail are not drawn, and the cars are drawn level: their own motion is "
@@ -268,17 +147,10 @@ def animate_crossing(run: Crossing, x: float | None = None, frames: int = 360, e
         f"displacement is {1e3 * sag[0]:.2f} mm at {sag[1]:.2f} s. {_pace(stop / data['seconds'])}"
     )
     title = f"{_who(run)} over {deck.name} at {speed:g} m/s, displacement {factor} times too large"
-    return Animation(title, frames, _page(_svg(drawing.height, drawing.items), title, words, data, _DRAW_CROSSING))
+    return Animation(title, frames, page(drawing, title, words, data, _DRAW_CROSSING))
 
 
 # ---- the two drawings
-
-
-class _Drawing:
-    """The parts of a picture, and how high it is, px."""
-
-    def __init__(self, height: float) -> None:
-        self.height, self.items = height, []
 
 
 def _kind(v: Vehicle, modes: Modes, i: int) -> str:
@@ -288,7 +160,7 @@ def _kind(v: Vehicle, modes: Modes, i: int) -> str:
     return _NAMES[max(share, key=lambda f: round(share[f] / energy.sum(), 6))]
 
 
-def _mode_drawing(v: Vehicle, motion: dict[str, np.ndarray]) -> tuple[_Drawing, list, list, float]:
+def _mode_drawing(v: Vehicle, motion: dict[str, np.ndarray]) -> tuple[Drawing, list, list, float]:
     """Draw the three views; return the drawing, what moves at rest and by how much (px), and the largest motion (m)."""
     room = 0.9 if v.length > 12 else 0.5
     half_x, half_y, height = extent(v) + room
@@ -296,7 +168,7 @@ def _mode_drawing(v: Vehicle, motion: dict[str, np.ndarray]) -> tuple[_Drawing, 
     low = 30 + scale * height  # the rail, px from above
     middle = {"side": 20 + scale * half_x, "top": 20 + scale * half_x, "front": 60 + scale * (2 * half_x + half_y)}
     axis = low + 60 + scale * half_y  # the car's axis as seen from above
-    drawing = _Drawing(axis + scale * half_y + 30)
+    drawing = Drawing(axis + scale * half_y + 30)
     boxes, level = body_boxes(v), body_levels(v)
     rest, move = [], []
 
@@ -307,25 +179,25 @@ def _mode_drawing(v: Vehicle, motion: dict[str, np.ndarray]) -> tuple[_Drawing, 
 
     def add(view: str, still: np.ndarray, there: np.ndarray, closed: bool, fill: str = "none") -> None:
         a, b = place(view, still), place(view, there)
-        rest.append(_rounded(a.ravel()))
-        move.append(_rounded((b - a).ravel()))
+        rest.append(rounded(a.ravel()))
+        move.append(rounded((b - a).ravel()))
         shape, shown = (
             "polygon" if closed else "polyline",
             {"stroke": _MOTION, "stroke-width": 1.8 if closed else 1.1, "fill": fill},
         )
-        drawing.items.append(_tag(shape, points=_points(b), **{"data-part": len(rest) - 1}, **shown))
+        drawing.add(shape, points=corners(b), **{"data-part": len(rest) - 1}, **shown)
 
     for view, (a, b) in VIEWS.items():
         name = {"side": "side", "top": "from above", "front": "looking forward"}[view]
-        drawing.items.append(_text(middle[view], axis - scale * half_y - 4 if view == "top" else 20, name, anchor="middle"))
+        drawing.write(middle[view], axis - scale * half_y - 4 if view == "top" else 20, name, anchor="middle")
         ordered = sorted(v.bodies, key=lambda body: level[body.name])
         for body in ordered:
             still = place(view, boxes[body.name].corners((a, b)))
-            drawing.items.append(_tag("polygon", points=_points(still), stroke=PALE, fill="none", **{"stroke-width": 1.4}))
+            drawing.add("polygon", points=corners(still), stroke=PALE, fill="none", **{"stroke-width": 1.4})
         if view != "top":
             half = scale * (half_x if view == "side" else half_y)
             line = {"x1": middle[view] - half, "x2": middle[view] + half, "y1": low, "y2": low}
-            drawing.items.append(_tag("line", stroke=_INK, **line))
+            drawing.add("line", stroke=INK, **line)
             for wheel in sorted({round((c.x, c.y)[view == "front"], 6) for c in v.contacts}):
                 centre = place(view, np.array([[wheel, wheel, 0.46]]))[0]
                 look = {
@@ -334,7 +206,7 @@ def _mode_drawing(v: Vehicle, motion: dict[str, np.ndarray]) -> tuple[_Drawing, 
                     "stroke": GREY,
                     "fill": "white",
                 }
-                drawing.items.append(_tag("ellipse", cx=centre[0], cy=centre[1], **look))
+                drawing.add("ellipse", cx=centre[0], cy=centre[1], **look)
         for body in ordered:
             still = boxes[body.name].corners((a, b))
             top = view == "top" and level[body.name] == max(level.values())
@@ -355,7 +227,7 @@ def _margin(length: float) -> float:
     return max(12.0, length / 2)
 
 
-def _draw_bridge(drawing: _Drawing, data: dict, run: Crossing, scale: float, time: np.ndarray, sample: np.ndarray) -> float:
+def _draw_bridge(drawing: Drawing, data: dict, run: Crossing, scale: float, time: np.ndarray, sample: np.ndarray) -> float:
     """Draw train and deck, add to the data what moves them, and return the force of the heaviest axle at rest, N."""
     deck, train, speed, rail = run.deck, run.train, run.settings.speed, 112.0
     left, span = 20 + scale * _margin(deck.length), scale * deck.length
@@ -369,47 +241,44 @@ def _draw_bridge(drawing: _Drawing, data: dict, run: Crossing, scale: float, tim
     for delay, force in zip(delays, forces, strict=True):
         on = np.flatnonzero((speed * time >= delay) & (speed * time <= delay + deck.length))
         first, last = (on[0], on[-1]) if len(on) else (0, -1)
-        bars.append([int(first), _rounded(per_newton * force[first : last + 1])])
-    data |= {"left": round(left, 1), "span": round(span, 1), "rail": rail, "head": _rounded(head), "force": bars}
-    data["delay"] = _rounded(scale * np.array(delays))
+        bars.append([int(first), rounded(per_newton * force[first : last + 1])])
+    data |= {"left": round(left, 1), "span": round(span, 1), "rail": rail, "head": rounded(head), "force": bars}
+    data["delay"] = rounded(scale * np.array(delays))
     for a, b in ((0, left), (left + span, WIDE)):
-        drawing.items.append(_tag("line", x1=a, x2=b, y1=rail, y2=rail, stroke=GREY, **{"stroke-width": 2}))
-    drawing.items.append(
-        _tag("line", x1=left, x2=left + span, y1=rail, y2=rail, stroke=GREY, **{"stroke-dasharray": "5 4", "stroke-width": 1})
-    )
+        drawing.add("line", x1=a, x2=b, y1=rail, y2=rail, stroke=GREY, **{"stroke-width": 2})
+    rest_line = {"stroke": GREY, "stroke-dasharray": "5 4", "stroke-width": 1}
+    drawing.add("line", x1=left, x2=left + span, y1=rail, y2=rail, **rest_line)
     cars = []
     for centre, car in zip(train.centres, getattr(train, "vehicles", ()), strict=False):
         half, middle = 0.47 * car.length, -centre
-        cars.append(_tag("rect", x=scale * (middle - half), y=rail - 46, width=scale * 2 * half, height=28, rx=3))
+        cars.append(mark("rect", x=scale * (middle - half), y=rail - 46, width=scale * 2 * half, height=28, rx=3))
         for name in dict.fromkeys(c.body for c in car.contacts):
             at = [middle + c.x for c in car.contacts if c.body == name]
             wide = scale * (max(at) - min(at)) + 8
-            cars.append(_tag("rect", x=scale * min(at) - 4, y=rail - 15, width=wide, height=5))
+            cars.append(mark("rect", x=scale * min(at) - 4, y=rail - 15, width=wide, height=5))
     # All that moves stands where it is in the frame that is shown first.
     frame = data["start"]
     across, down = np.linspace(left, left + span, len(data["deck"][frame])), rail + np.array(data["deck"][frame])
     look = {"fill": "#fbeee4", "stroke": _FORCE, "stroke-width": 1.4, "transform": f"translate({head[frame]:.1f} 0)"}
-    drawing.items.append(f"<g data-train='' {_attributes(look)}>{''.join(cars)}</g>")
-    line = {"fill": "none", "points": _points(zip(across, down, strict=True)), "data-deck": ""}
-    drawing.items.append(_tag("polyline", stroke=_DECK, transform="translate(0 5)", **line, **{"stroke-width": 8}))
-    drawing.items += [
-        _tag("polygon", points=_points([[p - 8, rail + 26], [p + 8, rail + 26], [p, rail + 11]]), fill=_DECK)
-        for p in (left + scale * s for s in deck.supports)
-    ]
+    drawing.items.append(f"<g data-train='' {attributes(look)}>{''.join(cars)}</g>")
+    line = {"fill": "none", "points": corners(zip(across, down, strict=True)), "data-deck": ""}
+    drawing.add("polyline", stroke=_DECK, transform="translate(0 5)", **line, **{"stroke-width": 8})
+    for foot in left + scale * np.array(deck.supports):
+        drawing.add("polygon", points=corners([[foot - 8, rail + 26], [foot + 8, rail + 26], [foot, rail + 11]]), fill=_DECK)
     places = head[frame] - scale * np.array(delays)
     lows = np.interp(places, across, down, left=rail, right=rail)
     for place, low, (first, bar) in zip(places, lows, bars, strict=True):
         long = bar[frame - first] if 0 <= frame - first < len(bar) else 0.0
         line = {"x1": place, "x2": place, "y1": low + 9, "y2": low + 9 + long, "stroke-opacity": int(long != 0.0)}
-        drawing.items.append(_tag("line", stroke=_FORCE, **{"data-bar": "", "stroke-width": 3.5}, **line))
+        drawing.add("line", stroke=_FORCE, **{"data-bar": "", "stroke-width": 3.5}, **line)
     for place, low in zip(places, lows, strict=True):
-        drawing.items.append(_tag("circle", cx=place, cy=low - 3.5, r=3.5, fill=_FORCE, **{"data-wheel": ""}))
-    drawing.items.append(_tag("line", x1=16, x2=16, y1=150, y2=150 + per_newton * rest, stroke=_FORCE, **{"stroke-width": 3.5}))
-    drawing.items.append(_text(24, 150 + per_newton * rest - 2, f"{rest / 1e3:.4g} kN, an axle at rest"))
+        drawing.add("circle", cx=place, cy=low - 3.5, r=3.5, fill=_FORCE, **{"data-wheel": ""})
+    drawing.add("line", x1=16, x2=16, y1=150, y2=150 + per_newton * rest, stroke=_FORCE, **{"stroke-width": 3.5})
+    drawing.write(24, 150 + per_newton * rest - 2, f"{rest / 1e3:.4g} kN, an axle at rest")
     return rest
 
 
-def _draw_history(drawing: _Drawing, data: dict, run: Crossing, x: float, time: np.ndarray) -> None:
+def _draw_history(drawing: Drawing, data: dict, run: Crossing, x: float, time: np.ndarray) -> None:
     """Draw the displacement at x over time, with its dot."""
     value = np.array(data["value"])
     low, high = min(0.0, value.min()), max(0.0, value.max())
@@ -417,27 +286,25 @@ def _draw_history(drawing: _Drawing, data: dict, run: Crossing, x: float, time: 
     left, right, top, bottom = 62.0, WIDE - 20.0, 236.0, 328.0
     across = left + (right - left) * time / time[-1]
     up = bottom - (bottom - top) * (value - low) / reach
-    data["dot"] = [_rounded(p) for p in np.column_stack([across, up])]
+    data["dot"] = [rounded(p) for p in np.column_stack([across, up])]
     zero = bottom + (bottom - top) * low / reach
-    drawing.items.append(_tag("line", x1=left, x2=right, y1=zero, y2=zero, stroke=GREY))
+    drawing.add("line", x1=left, x2=right, y1=zero, y2=zero, stroke=GREY)
     for tick in _ticks(low, high, 4):
         y = bottom - (bottom - top) * (tick - low) / reach
-        drawing.items += [_tag("line", x1=left - 4, x2=left, y1=y, y2=y, stroke=_INK)]
-        drawing.items += [_text(left - 7, y + 4, f"{tick:g}", anchor="end")]
+        drawing.add("line", x1=left - 4, x2=left, y1=y, y2=y, stroke=INK)
+        drawing.write(left - 7, y + 4, f"{tick:g}", anchor="end")
     for tick in _ticks(0.0, time[-1], 8):
         at = left + (right - left) * tick / time[-1]
-        drawing.items += [_tag("line", x1=at, x2=at, y1=bottom + 4, y2=bottom + 8, stroke=_INK)]
-        drawing.items += [_text(at, bottom + 22, f"{tick:g}", anchor="middle")]
-    drawing.items.append(_tag("line", x1=left, x2=right, y1=bottom + 4, y2=bottom + 4, stroke=_INK))
-    drawing.items.append(_tag("line", x1=left, x2=left, y1=top, y2=bottom, stroke=_INK))
-    drawing.items.append(_text(left, top - 12, f"vertical displacement at x = {x:g} m (mm)", size=13))
-    drawing.items.append(
-        _text((left + right) / 2, bottom + 38, "time since the first axle entered (s)", anchor="middle", size=13)
-    )
-    line = {"points": _points(np.column_stack([across, up])), "fill": "none", "stroke": _MOTION, "stroke-width": 1.6}
-    drawing.items.append(_tag("polyline", **line))
+        drawing.add("line", x1=at, x2=at, y1=bottom + 4, y2=bottom + 8, stroke=INK)
+        drawing.write(at, bottom + 22, f"{tick:g}", anchor="middle")
+    drawing.add("line", x1=left, x2=right, y1=bottom + 4, y2=bottom + 4, stroke=INK)
+    drawing.add("line", x1=left, x2=left, y1=top, y2=bottom, stroke=INK)
+    drawing.write(left, top - 12, f"vertical displacement at x = {x:g} m (mm)", size=13)
+    drawing.write((left + right) / 2, bottom + 38, "time since the first axle entered (s)", anchor="middle", size=13)
+    line = {"points": corners(np.column_stack([across, up])), "fill": "none", "stroke": _MOTION, "stroke-width": 1.6}
+    drawing.add("polyline", **line)
     x_dot, y_dot = data["dot"][data["start"]]
-    drawing.items.append(_tag("circle", cx=x_dot, cy=y_dot, r=5, fill=_MOTION, stroke="white", **{"data-dot": ""}))
+    drawing.add("circle", cx=x_dot, cy=y_dot, r=5, fill=_MOTION, stroke="white", **{"data-dot": ""})
 
 
 def _pace(ratio: float) -> str:
@@ -453,7 +320,7 @@ def _who(run: Crossing) -> str:
     return f"{count} {word}" + "s" * (count != 1)
 
 
-# ---- numbers and marks
+# ---- numbers
 
 
 def _round_below(value: float) -> float:
@@ -465,52 +332,3 @@ def _round_below(value: float) -> float:
 def _ticks(low: float, high: float, most: int) -> np.ndarray:
     step = next(s * 10.0**p for p in range(-12, 13) for s in (1, 2, 5) if (high - low) / (s * 10.0**p) <= most)
     return step * np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1) + 0.0
-
-
-def _rounded(values: np.ndarray, digits: int = 1) -> list:
-    # Adding zero turns -0.0 into 0.0, so that what is stored does not hang on the sign of nothing.
-    return (np.round(np.asarray(values, dtype=float), digits) + 0.0).tolist()
-
-
-def _points(points: Iterable) -> str:
-    return " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-
-
-def _attributes(given: dict) -> str:
-    shown = {k: f"{v:.6g}" if isinstance(v, (float, np.floating)) else v for k, v in given.items()}
-    return " ".join(f'{k}="{escape(str(v))}"' for k, v in shown.items())
-
-
-def _tag(name: str, **attributes) -> str:
-    return f"<{name} {_attributes(attributes)}/>"
-
-
-def _text(x: float, y: float, text: str, anchor: str = "start", size: int = 12) -> str:
-    look = {"x": float(x), "y": float(y), "fill": _INK, "font-size": size, "text-anchor": anchor}
-    return f"<text {_attributes(look)}>{escape(text)}</text>"
-
-
-def _svg(height: float, items: list[str]) -> str:
-    """Return the picture in ASCII, so that it survives ``atob``."""
-    head = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDE} {height:.0f}" width="{WIDE}" height="{height:.0f}" '
-        'role="img" font-family="sans-serif" style="max-width:100%;height:auto;display:block">'
-        f'<rect width="{WIDE}" height="{height:.0f}" fill="white"/>'
-    )
-    return (head + "".join(items) + "</svg>").encode("ascii", "xmlcharrefreplace").decode("ascii")
-
-
-def _page(svg: str, title: str, words: str, data: dict, draw: str) -> str:
-    """Put picture, words and player together."""
-    numbers = json.dumps(data, separators=(",", ":")).replace(".0,", ",").replace(".0]", "]").replace("<", "\\u003c")
-    key = hashlib.sha256((svg + numbers).encode()).hexdigest()[:10]
-    script = _PLAYER.replace("__DRAW__", draw).replace("__KEY__", key).replace("__DATA__", numbers)
-    picture = b64encode(svg.encode("ascii")).decode("ascii")
-    box = f"max-width:{WIDE}px;background:#fff;color:{_INK};font:13px/1.4 sans-serif;border:1px solid #ccc"
-    return (
-        f'<div data-animation="{key}" role="group" aria-label="Animation: {escape(title)}" style="{box}">\n'
-        f'<img alt="{escape(words)}" src="data:image/svg+xml;base64,{picture}" style="max-width:100%;display:block">\n'
-        f'<p style="margin:4px 10px 8px">{escape(words)}</p>\n'
-        '<p data-still style="margin:4px 10px 8px">A still picture: run this cell to play it.</p>\n'
-        f"<script>{script}</script>\n</div>"
-    )
