@@ -73,7 +73,7 @@ class Control:
 
     def widget(self, value: Any) -> widgets.Widget:
         """Make the slider or list, showing a value given in SI units."""
-        layout = widgets.Layout(flex="1 1 100%", min_width="0")
+        layout = widgets.Layout(flex="1 1 21em", min_width="0")
         shared = {"description": self.label, "style": {"description_width": LABEL}, "layout": layout}
         if self.choices:
             return widgets.Dropdown(options=self.choices, value=value, **shared)
@@ -86,7 +86,7 @@ class Control:
     def player(self, slider: widgets.Widget) -> widgets.Widget:
         """Make the buttons that let a slider run by itself, in the browser."""
         play = widgets.Play(slider.value, min=self.low, max=self.high, step=2 * self.step, interval=100, show_repeat=False,
-                            layout=widgets.Layout(width="8em", margin=f"0 0 0 {LABEL}"))  # fmt: skip
+                            layout=widgets.Layout(flex="0 0 auto", width="5.5em"))  # fmt: skip
         widgets.jslink((play, "value"), (slider, "value"))
         return play
 

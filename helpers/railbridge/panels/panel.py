@@ -23,7 +23,7 @@ from ..inputs import InputError
 from ..plots.drawing import WIDTH, hold, live
 from ..plots.picture import Picture
 from ..settings import default_time_step
-from .control import LABEL, Control, present, put, read
+from .control import Control, present, put, read
 
 __all__ = ["FALLBACK", "Panel"]
 
@@ -112,8 +112,8 @@ class Panel:
 
     def _build(self) -> None:
         self.sliders = {n: c.widget(self.start[n]) for n, c in self.controls.items()}
-        aside = widgets.Layout(margin=f"0 0 0 {LABEL}")
-        self._asides = {n: widgets.Label(layout=aside) for n, c in self.controls.items() if c.aside}
+        beside = widgets.Layout(flex="0 0 auto", margin="0 0 0 2px")
+        self._asides = {n: widgets.Label(layout=beside) for n, c in self.controls.items() if c.aside}
         for slider in self.sliders.values():
             slider.observe(lambda _: self._moved(), names="value")
         # As a data URL: from a blob's URL, which the widget would make of plain bytes, a browser shows it 15 ms later.
@@ -133,12 +133,12 @@ class Panel:
         self.code_button.on_click(lambda _: self._show_code())
         self.code_area = widgets.Textarea(rows=14, layout=widgets.Layout(width="100%", max_width="900px", display="none"))
         wide = self.figure.get_figwidth() * DPI
-        row = widgets.Layout(flex="1 1 19em", max_width="29em", flex_flow="row wrap", align_items="center")
+        row = widgets.Layout(flex="1 1 28em", max_width="40em", flex_flow="row wrap", align_items="center")
         rows = [widgets.HBox([self.sliders[n], *self._beside(n)], layout=row) for n in self.controls]
         controls = widgets.HBox(rows, layout=widgets.Layout(flex_flow="row wrap", grid_gap="0 1em"))
         buttons = widgets.HBox([self.paper_button, self.code_button], layout=widgets.Layout(flex_flow="row wrap"))
         # Beside the picture where there is room, above it where there is not.
-        side = widgets.VBox([controls, buttons], layout=widgets.Layout(flex="1 1 20em", min_width="0"))
+        side = widgets.VBox([controls, buttons], layout=widgets.Layout(flex="1 1 24em", min_width="0"))
         main = widgets.VBox(
             [self.image, self.words, self.trouble],
             layout=widgets.Layout(flex=f"6 1 {0.82 * wide:.0f}px", min_width="0", max_width=f"{wide:.0f}px"),
