@@ -47,6 +47,8 @@ PAGES = {
 }
 COURSE = ("00", "01", "02", "03", "04", "05", "06", "08")
 CELL_LINES = 15
+PRINTED_LETTERS = 100  # what a page of the site shows; JupyterLab wraps longer lines in a narrow window
+COLOURS = "plt.style.use(rb.plots.STYLE)"
 FIGURE_WORDS = 12
 FILE_BYTES = 400_000
 
@@ -103,9 +105,9 @@ def prints(cell):
 
 
 def code_lines(cell):
-    """Lines that a reader has to read: not blank, no marker of ours."""
+    """Lines that a reader has to read: not blank, no marker of ours, not the setting that stands on every page."""
     lines = [line.strip() for line in cell.source.splitlines()]
-    return [line for line in lines if line and line.strip("# ") != MARKED and not EXEMPT.match(line)]
+    return [line for line in lines if line and line.strip("# ") != MARKED and not EXEMPT.match(line) and COLOURS not in line]
 
 
 def prose(cell):
@@ -231,6 +233,8 @@ def rules_of_the_cells(notebook, number, page):
     importing = [cell for cell in notebook.cells if is_code(cell) and re.search(r"^(import|from) ", cell.source, re.M)]
     if len(importing) > 1:
         yield "one cell imports, not " + str(len(importing))
+    if "plt.subplots(" in joined(filter(is_code, notebook.cells)) and not any(COLOURS in cell.source for cell in importing):
+        yield f"a page that draws by itself sets the colours of the suite where it imports: {COLOURS}"
 
 
 def rules_of_the_figures(notebook, number, page):
@@ -259,6 +263,9 @@ def rules_of_the_outputs(notebook, number, page):
         marked, exempt = marker(cell, MARKED), bool(EXEMPT.search(cell.source))
         if prints(cell) and not marked and not exempt:
             yield f"{name} prints: mark it '# {MARKED}' or '# not compared: reason'"
+        for line in "".join(out.text for out in cell.outputs if out.get("name") == "stdout").splitlines():
+            if len(line) > PRINTED_LETTERS:
+                yield f"{name} prints {len(line)} letters in a line, limit {PRINTED_LETTERS}: '{line[:30]}'"
         if (marked or exempt) and not prints(cell):
             yield f"{name} is marked but prints nothing"
         if marked and exempt:
@@ -414,6 +421,8 @@ BREAKING = {
     "hidden output": (lambda nb: first(nb, is_code).update(source="# NBVAL_SKIP\nx = 1"), "NBVAL_SKIP"),
     "too much code": (lambda nb: nb.cells.extend(copy.deepcopy(nb.cells) * 3), "lines of code"),
     "second import": (replace("print(", "import os\nprint(", "code"), "one cell imports"),
+    "own colours": (replace(f"{COLOURS}  # colours of the suite", "", "code"), "sets the colours of the suite"),
+    "long line": (stream("x" * 101 + "\n"), "prints 101 letters"),
     "no caption": (drop_caption, "the text cell after a figure"),
     "short caption": (short_caption, "at least 12 words"),
     "two figures": (lambda nb: (c := first(nb, figures)).update(outputs=c.outputs * 2), "one figure a cell"),
