@@ -18,7 +18,7 @@ from .deck import Deck, checked_damping, damping_ratios
 from .elements import FIELDS
 from .influence import BeamRecovery
 from .inputs import InputError
-from .mesh import BeamModes, Mesh
+from .mesh import DENSE, BeamModes, Mesh
 
 __all__ = ["FIXITIES", "Beam", "BeamModes", "Bearing", "checked_spans"]
 
@@ -285,23 +285,23 @@ class Beam:
         """
         wanted = inputs.integer("deck.modes", modes, least=1)
         damping = checked_damping(damping)
-        everything = self.modes
-        excitable = np.flatnonzero(everything.excitable).tolist()
+        found = self.modes if self.mesh.size <= DENSE else self.mesh.modes(wanted)
+        excitable = np.flatnonzero(found.excitable).tolist()
         if wanted > len(excitable):
             raise InputError("deck.modes", modes, f"the mesh has {len(excitable)} modes that loads excite", "Use more elements")
         kept = excitable[:wanted]
-        frequencies = everything.frequencies_hz[kept]
+        frequencies, vectors = found.frequencies_hz[kept], found.vectors[:, kept]
         ratios = damping_ratios(damping, frequencies)
         return Deck(
             name=self.name,
             length=self.length,
             frequencies_hz=frequencies,
             damping_ratios=ratios,
-            mode_names=tuple(everything.names[i] for i in kept),
-            shapes=self.mesh.interpolate(everything.vectors[:, kept]),
+            mode_names=tuple(found.names[i] for i in kept),
+            shapes=self.mesh.interpolate(vectors),
             supports=tuple(sorted({b.x for b in self.bearings})),
             bearings=tuple((b.x, b.y, b.z) for b in self.bearings),
-            recovery=BeamRecovery(self, kept),
+            recovery=BeamRecovery(self, frequencies, vectors),
             tracks=tracks or {},
             width=width,
             track_height=track_height,

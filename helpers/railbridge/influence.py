@@ -12,7 +12,6 @@ while psi stays smooth.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 from math import comb
 from typing import TYPE_CHECKING
@@ -44,11 +43,20 @@ _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 
 class BeamRecovery:
-    """Influence lines and modal values of a beam's outputs; see `Recovery`."""
+    """Influence lines and modal values of a beam's outputs; see `Recovery`.
 
-    def __init__(self, beam: Beam, kept: Sequence[int]) -> None:
+    Parameters
+    ----------
+    beam : Beam
+    frequencies_hz : ndarray, shape (m,)
+        Of the deck's modes.
+    vectors : ndarray, shape (freedoms, m)
+        Their shapes over the beam's mesh, mass-normalised.
+    """
+
+    def __init__(self, beam: Beam, frequencies_hz: np.ndarray, vectors: np.ndarray) -> None:
         self.beam = beam
-        self.kept = list(kept)
+        self._vectors, self._omega2 = vectors, (2 * np.pi * frequencies_hz) ** 2
         self._lines: dict[tuple, Line | None] = {}
 
     def section(self, quantity: str, x: float) -> Line | None:
@@ -152,11 +160,10 @@ class BeamRecovery:
     @cached_property
     def _inertia(self) -> np.ndarray:
         """Nodal loads of the modes' own inertia, omega^2 M phi, and last those of a unit vertical acceleration."""
-        mesh, modes = self.beam.mesh, self.beam.modes
-        omega2 = (2 * np.pi * modes.frequencies_hz[self.kept]) ** 2
+        mesh = self.beam.mesh
         lifted = np.zeros(mesh.size)
         lifted[2 : 6 * len(mesh.nodes) : 6] = 1.0
-        return mesh.matrices[1] @ np.column_stack([modes.vectors[:, self.kept] * omega2, lifted])
+        return mesh.matrices[1] @ np.column_stack([self._vectors * self._omega2, lifted])
 
     def _line(self, moved: np.ndarray, influence: PiecewiseCubic, modal: np.ndarray | float = 0.0, weight: float = 0.0) -> Line:
         """Attach the modal values: the static effect of each mode's own inertia load, S_m = omega^2 int line m phi dx.
@@ -177,10 +184,11 @@ class BeamRecovery:
         powers = s[:, None] ** np.arange(4)
         behind = np.where(s > cut, s - cut, 0.0)[:, None] ** np.arange(4) * (s > cut)[:, None]
         own = behind @ jump - powers @ taken_off
-        vectors = beam.modes.vectors[:, self.kept]
 
         def shape(other: str) -> np.ndarray:
-            return mesh.shape_matrix(other, e) @ vectors[mesh.freedoms[other][e]] if other in beam.fields else np.zeros((4, 1))
+            return (
+                mesh.shape_matrix(other, e) @ self._vectors[mesh.freedoms[other][e]] if other in beam.fields else np.zeros((4, 1))
+            )
 
         z = beam.centroid_height
         if name == "torsion":
@@ -194,8 +202,7 @@ class BeamRecovery:
             turned = rotation_powers(mesh.h[e : e + 1], mesh.phi[name][e : e + 1])[0]
             own_turn = behind @ turn - powers @ (turned @ taken_off)
             modal = modal + beam.rotary_inertia(name) * (own_turn * dx) @ powers @ turned @ shape(name)
-        omega2 = (2 * np.pi * beam.modes.frequencies_hz[self.kept]) ** 2
-        return omega2 * modal, beam.mass * float(own @ dx) if name == "vertical" else 0.0
+        return self._omega2 * modal, beam.mass * float(own @ dx) if name == "vertical" else 0.0
 
 
 def _cut(shape: PiecewiseCubic, e: int, cut: float, component: int, jump: np.ndarray) -> PiecewiseCubic:

@@ -16,13 +16,15 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve, eigh
-from scipy.sparse import csr_array
+from scipy.linalg import eigh
+from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.csgraph import connected_components
+from scipy.sparse.linalg import SuperLU
 
 from . import elements
 from .bearings import null_space
 from .deck import PiecewiseCubic
+from .eigen import count_below, factorised, lowest
 from .elements import FIELDS
 
 if TYPE_CHECKING:
@@ -34,6 +36,9 @@ _PLACE = {"axial": (0,), "lateral": (1, 4), "vertical": (2, 5), "torsion": (3,)}
 _LABELS = {"axial": "axial", "lateral": "lateral bending", "vertical": "vertical bending", "torsion": "torsion"}
 MIXED = (0.25, 0.75)
 """Share of axial kinetic energy between which a mode is called axial-bending."""
+DENSE = 400
+"""Coupled freedoms up to which all modes together cost no more than the few that are needed."""
+_SPARE = 6  # modes beyond those needed, among which a gap is sought
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,20 +148,18 @@ class Mesh:
         return [(dofs[a], dofs[b], size * elements.coupling(self.h, self.shapes[a], self.shapes[b])) for a, b, size in parts]
 
     @cached_property
-    def matrices(self) -> tuple[np.ndarray, np.ndarray]:
+    def matrices(self) -> tuple[csr_array, csr_array]:
         """K and M over all freedoms, bearings not yet applied, shape (size, size)."""
-        k, m = np.zeros((2, self.size, self.size))
-        for name, (stiffness, mass) in self.fields.items():
-            dofs = self.freedoms[name]
-            # Neighbours share freedoms, so every other element is added at a time.
-            for part in (slice(0, None, 2), slice(1, None, 2)):
-                where = dofs[part, :, None], dofs[part, None, :]
-                k[where] += stiffness[part]
-                m[where] += mass[part]
-        for rows, columns, values in self._eccentric:
-            for part in (slice(0, None, 2), slice(1, None, 2)):
-                m[rows[part, :, None], columns[part, None, :]] += values[part]
-        return k, m
+        own = [(self.freedoms[name], *both) for name, both in self.fields.items()]
+        k = self._assembled([(dofs, dofs, stiffness) for dofs, stiffness, _ in own])
+        return k, self._assembled([(dofs, dofs, mass) for dofs, _, mass in own] + self._eccentric)
+
+    def _assembled(self, parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> csr_array:
+        """Add up parts, each with rows (e, n1), columns (e, n2) and values (e, n1, n2)."""
+        rows = np.concatenate([np.broadcast_to(r[:, :, None], v.shape).ravel() for r, _, v in parts])
+        columns = np.concatenate([np.broadcast_to(c[:, None, :], v.shape).ravel() for _, c, v in parts])
+        values = np.concatenate([v.ravel() for _, _, v in parts])
+        return coo_array((values, (rows, columns)), shape=(self.size, self.size)).tocsr()
 
     # ---- bearings
 
@@ -202,44 +205,67 @@ class Mesh:
         return csr_array((entries[0], entries[1:]), shape=(self.size, count + len(middles)))
 
     @cached_property
-    def stiffness(self) -> np.ndarray:
+    def stiffness(self) -> csr_array:
         """K with the springs of the bearings, shape (size, size)."""
-        k = self.matrices[0].copy()
-        for i, (bearing, node) in enumerate(zip(self.beam.bearings, self.places, strict=True)):
-            here = slice(6 * node, 6 * node + 6)
-            for freedom, size in bearing.stiffness.items():
-                row = self.row(i, freedom)
-                k[here, here] += size * np.outer(row, row)
-        return k
+        springs = [(i, f, size) for i, bearing in enumerate(self.beam.bearings) for f, size in bearing.stiffness.items()]
+        if not springs:
+            return self.matrices[0]
+        rows = np.array([self.row(i, freedom) for i, freedom, _ in springs])
+        values = np.array([size for *_, size in springs])[:, None, None] * rows[:, :, None] * rows[:, None, :]
+        dofs = np.array([6 * self.places[i] for i, *_ in springs])[:, None] + np.arange(6)
+        return self.matrices[0] + self._assembled([(dofs, dofs, values)])
 
-    def _reduced(self, matrix: np.ndarray) -> csr_array:
-        return (self.basis.T @ csr_array(matrix) @ self.basis).tocsr()
+    def _reduced(self, matrix: csr_array) -> csr_array:
+        return (self.basis.T @ matrix @ self.basis).tocsr()
 
     @cached_property
-    def _factor(self):
-        return cho_factor(self._reduced(self.stiffness).toarray())
+    def _factor(self) -> SuperLU:
+        return factorised(self._reduced(self.stiffness))
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """Return the static displacement of all freedoms under a nodal load; the bearings hold."""
-        return self.basis @ cho_solve(self._factor, self.basis.T @ load)
+        return self.basis @ self._factor.solve(self.basis.T @ load)
 
     # ---- modes
 
-    def modes(self) -> BeamModes:
-        """Solve each uncoupled group of freedoms on its own: a straight beam on bearings in its axis falls into four."""
+    def modes(self, wanted: int | None = None) -> BeamModes:
+        """Solve each uncoupled group of freedoms on its own: a straight beam on bearings in its axis falls into four.
+
+        Parameters
+        ----------
+        wanted : int, optional
+            How many modes that loads can excite are needed; the lowest ones, and all others among them. By default all modes of
+            the mesh are given, which costs the cube of the freedoms that bearings couple; few modes cost their number only.
+        """
         k, m = self._reduced(self.stiffness), self._reduced(self.matrices[1])
         pattern = abs(k) + abs(m)
         pattern.eliminate_zeros()
         count, group = connected_components(pattern, directed=False)
-        squares, vectors = [], []
-        for g in range(count):
-            here = np.flatnonzero(group == g)
-            values, shapes = eigh(*(a[here][:, here].toarray() for a in (k, m)))
-            squares.append(values)
-            vectors.append(self.basis[:, here] @ shapes)
-        squares, vectors = np.concatenate(squares), np.hstack(vectors)
+        groups = [np.flatnonzero(group == g) for g in range(count)]
+        enough = wanted
+        while True:
+            found = self._lowest(k, m, groups, enough)
+            if wanted is None or len(found.names) == k.shape[0] or int(np.sum(found.excitable)) >= wanted:
+                return found
+            enough *= 2
+
+    def _lowest(self, k: csr_array, m: csr_array, groups: list[np.ndarray], count: int | None) -> BeamModes:
+        """Return the `count` lowest modes and some more, as far as every group is known; all modes if None."""
+        solved, known = [], np.inf
+        for here in groups:
+            own = k[here][:, here], m[here][:, here]
+            solved.append(eigh(*(a.toarray() for a in own)) if count is None else _lowest_of(*own, count))
+            if len(solved[-1][0]) < len(here):
+                known = min(known, solved[-1][0][-1])
+        squares = np.concatenate([values for values, _ in solved])
         order = np.argsort(squares, kind="stable")
-        vectors = vectors[:, order]
+        order = order[squares[order] <= known][: None if count is None else 2 * count]
+        whose = np.repeat(np.arange(len(groups)), [len(values) for values, _ in solved])
+        firsts = np.cumsum([0, *(len(values) for values, _ in solved)])
+        vectors = np.zeros((self.size, len(order)))
+        for g, here in enumerate(groups):
+            own = np.flatnonzero(whose[order] == g)
+            vectors[:, own] = self.basis[:, here] @ solved[g][1][:, order[own] - firsts[g]]
         energies = self._energies(vectors)
         return BeamModes(np.sqrt(squares[order]) / (2 * np.pi), _names(energies), _signed(vectors), energies)
 
@@ -263,6 +289,18 @@ class Mesh:
             if name in self.beam.fields:
                 result[..., c] = self.shapes[name] @ vectors[self.freedoms[name]]
         return PiecewiseCubic(self.edges, result)
+
+
+def _lowest_of(k: csr_array, m: csr_array, wanted: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return omega^2 and shapes of one group of freedoms: at least the `wanted` lowest, none left out below the last."""
+    size, more = k.shape[0], wanted + _SPARE
+    if size > DENSE and more < size // 4:
+        values, shapes = lowest(csc_array(k), csc_array(m), more)
+        # Counted where two modes are farthest apart: there round-off cannot put one on the wrong side.
+        last = wanted + int(np.argmax(values[wanted:] / values[wanted - 1 : -1]))
+        if count_below(k, m, float(np.sqrt(values[last - 1] * values[last]))) == last:
+            return values[:last], shapes[:, :last]
+    return eigh(k.toarray(), m.toarray())
 
 
 def _names(energies: dict[str, np.ndarray]) -> tuple[str, ...]:

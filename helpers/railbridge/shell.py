@@ -15,10 +15,10 @@ from functools import cached_property
 import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.sparse import csc_array, csr_array, diags_array
-from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from . import inputs
 from .deck import PiecewiseCubic
+from .eigen import lowest
 from .inputs import InputError
 from .motions import KINDS, ShellModes, described, sectionwise
 from .pads import Pad, elimination, free_count, held
@@ -280,7 +280,7 @@ class Shell:
     # ------------------------------------------------------------------ modes
 
     def modes(self, count: int = 15) -> ShellModes:
-        """Return the lowest modes, by shift-invert Lanczos iteration about zero.
+        """Return the lowest modes.
 
         Raises
         ------
@@ -289,16 +289,11 @@ class Shell:
         """
         k, m = self._reduced
         count = inputs.integer("modes", count, least=1, most=max(k.shape[0] // 4, 1))
-        factor = splu(k, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-        inverse = LinearOperator(k.shape, factor.solve, dtype=float)
-        # A fixed start makes the last digits repeatable.
-        start = np.random.default_rng(1).standard_normal(k.shape[0])
-        squares, vectors = eigsh(k, count, m, sigma=0.0, OPinv=inverse, v0=start)
-        order = np.argsort(squares)
-        full = (self._turn[0] @ vectors[:, order]).reshape(len(self.nodes), 6, count)
+        squares, vectors = lowest(k, m, count)
+        full = (self._turn[0] @ vectors).reshape(len(self.nodes), 6, count)
         large = np.abs(full[:, :3]).reshape(-1, count)
         sign = np.sign(full[:, :3].reshape(-1, count)[np.argmax(large > 0.5 * large.max(axis=0), axis=0), np.arange(count)])
-        return described(self, np.sqrt(squares[order]) / (2 * np.pi), full * sign)
+        return described(self, np.sqrt(squares) / (2 * np.pi), full * sign)
 
     def quotients(self, vectors: np.ndarray) -> np.ndarray:
         """Return Rayleigh's quotients of given shapes, as frequencies, Hz.
