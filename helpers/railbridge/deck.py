@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import perm
 from typing import Protocol
 
 import numpy as np
@@ -88,7 +89,7 @@ class PiecewiseCubic:
     edges : ndarray, shape (e + 1,)
         m, ascending.
     coefficients : ndarray, shape (e, 4, n, 3)
-        Powers 0..3 of the local coordinate 0..1, for n functions of three components (y, z, roll).
+        Powers 0..3 of the local coordinate 0..1, for n functions of three components (y, z, roll), or of as many as there are.
     """
 
     edges: np.ndarray
@@ -102,7 +103,7 @@ class PiecewiseCubic:
         local = (x - self.edges[i]) / h
         factors = np.zeros((4, len(x)))
         for p in range(derivative, 4):
-            factors[p] = np.prod(range(p - derivative + 1, p + 1)) * local ** (p - derivative) / h**derivative
+            factors[p] = perm(p, derivative) * local ** (p - derivative) / h**derivative
         factors[:, (x < self.edges[0] - 1e-9) | (x > self.edges[-1] + 1e-9)] = 0.0
         return np.einsum("pk,kpnc->knc", factors, self.coefficients[i])
 
@@ -380,17 +381,23 @@ class Deck:
         last = np.floor((np.asarray(delays) + self.length) / advance + slack).astype(int)
         counts = np.minimum(last, samples - 1) - starts + 1
         first = starts * advance - delays
-        mode, component = np.nonzero(np.any(self.shapes.coefficients != 0.0, axis=(0, 1)))
-        order = np.lexsort((mode, component))
-        pairs = mode[order], component[order]
+        pairs, shapes = self._pairs
         keys = np.round(first / advance, 9)
         unique, which = np.unique(keys, return_inverse=True)
-        tables = []
-        for key in unique:
-            x = key * advance + advance * np.arange(counts[keys == key].max())
-            x = np.clip(x, 0.0, self.length)
-            tables.append(tuple(np.ascontiguousarray(self.shapes(x, d)[:, pairs[0], pairs[1]].T) for d in (0, 1)))
-        return Stations(starts, np.maximum(counts, 0), tuple(tables), which, pairs, speed)
+        places = [advance * (key + np.arange(counts[keys == key].max())) for key in unique]
+        ends = np.cumsum([len(x) for x in places])[:-1]
+        values, slopes = (
+            np.split(np.ascontiguousarray(shapes(np.clip(np.concatenate(places), 0.0, self.length), d)[:, 0].T), ends, axis=1)
+            for d in (0, 1)
+        )
+        return Stations(starts, np.maximum(counts, 0), tuple(zip(values, slopes, strict=True)), which, pairs, speed)
+
+    @cached_property
+    def _pairs(self) -> tuple[tuple[np.ndarray, np.ndarray], PiecewiseCubic]:
+        """The (mode, component) pairs that are not zero, sorted by component, and their shapes as components of one function."""
+        component, mode = np.nonzero(np.any(self.shapes.coefficients != 0.0, axis=(0, 1)).T)
+        coefficients = np.ascontiguousarray(self.shapes.coefficients[:, :, None, mode, component])
+        return (mode, component), PiecewiseCubic(self.shapes.edges, coefficients)
 
     def sampled(self, time_step: float) -> SampledModes:
         """Prepare the modes for one time step (s); they take modal forces and give coordinates and velocities."""

@@ -232,7 +232,7 @@ def rung(value: float, rungs: Sequence[float] = _RUNGS) -> float:
 
 def _fit(ax: Axes) -> None:
     """Give a live axes round limits around its data."""
-    lines = [line for line in ax.lines if line.get_transform().contains_branch(ax.transData) and len(line.get_xdata())]
+    lines = [line for line in ax.lines if line.get_transform() is ax.transData and len(line.get_xdata())]
     for values, get, put, log, along in (
         ([line.get_xdata() for line in lines], ax.get_xlim, ax.set_xlim, ax.get_xscale() == "log", True),
         ([line.get_ydata() for line in lines], ax.get_ylim, ax.set_ylim, ax.get_yscale() == "log", False),
