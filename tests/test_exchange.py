@@ -135,7 +135,8 @@ def test_a_case_takes_a_modal_deck_by_file_and_in_place(folder):
     assert set(in_place.deck.damping_ratios) == {0.02}
     assert len(by_file.replace({"deck.modes": 4}).deck.frequencies_hz) == 4
     change(folder / "modes.csv", lambda lines: [line.replace("3.30737617", "3.4") for line in lines])
-    assert by_file.replace({"run.speed": 21.0}).deck.frequencies_hz[0] == 3.4, "a changed file is read again"
+    assert by_file.replace({"run.speed": 21.0}).deck is by_file.deck, "a change that does not name the deck keeps it"
+    assert rb.Case(by_file.content).deck.frequencies_hz[0] == 3.4, "a case made anew reads a changed file again"
 
 
 def test_paths_in_a_case_file_are_relative_to_it(folder, tmp_path, monkeypatch):
