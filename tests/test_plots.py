@@ -72,7 +72,7 @@ def figures(case, run):
     }
 
 
-FIGURES = [name for name in plots.__all__ if callable(getattr(plots, name)) and not name.startswith("animate_")]
+FIGURES = [name for name in plots.__all__ if not name.startswith("animate_")]
 
 
 @pytest.mark.parametrize("name", FIGURES)

@@ -31,7 +31,7 @@ def compared(
     """
     difference = abs(value - reference) / abs(reference) * 100.0
     shown = [f"{v:#.{digits}g}".rstrip(".") + (f" {unit}" if unit else "") for v in (value, reference)]
-    line = f"{name:<34} {shown[0]:>16}   {source} {shown[1]:>16}   limit {limit:g} %"
+    line = f"{name:<30} {shown[0]:>15}   {source} {shown[1]:>15}   limit {limit:g} %"
     if not difference <= limit:
         raise AssertionError(f"{line}   differs by {difference:.3g} %")
     return f"{line}   ok"

@@ -21,11 +21,11 @@ from .response import (
 )
 from .shells import assurance, box_section, shell_mode, shell_modes
 from .sketches import train_on_deck, vehicle, vehicle_mode
-from .style import STYLE
+from .style import STYLE as STYLE
 from .track import frequencies, irregularity, notch, slope, wheel_paths, wheels_on_track
 
 __all__ = [
-    "STYLE", "acceleration", "animate_crossing", "animate_vehicle_mode", "assurance", "box_section", "car_forces", "convergence",
+    "acceleration", "animate_crossing", "animate_vehicle_mode", "assurance", "box_section", "car_forces", "convergence",
     "damping", "deck_mode", "deck_modes", "deviations", "displacement", "frequencies", "influence_line", "irregularity",
     "iterations", "load_modes", "notch", "reactions", "section_force", "shell_mode", "shell_modes", "slope", "spectra",
     "spectrum", "train_on_deck", "vehicle", "vehicle_mode", "velocity", "wheel_force", "wheel_forces", "wheel_paths",
