@@ -4,13 +4,9 @@ import numpy as np
 import pytest
 
 import railbridge as rb
+from boxes import box
 from railbridge.comparison import beam_motions, mac, pairs, shell_against_beam
 from railbridge.inputs import InputError
-
-PLAIN = rb.Box(
-    "plain", (36.0,), slab_width=9.6, slab_thickness=0.25, depth=2.0, web_thickness=0.35, web_spacing=5.0,
-    bottom_thickness=0.2, youngs_modulus=34e9,
-)  # fmt: skip
 
 
 def test_assurance_criterion():
@@ -27,9 +23,10 @@ def test_assurance_criterion():
 
 def test_shell_and_beam_agree_where_a_beam_holds():
     """First vertical bending within 2 %, first lateral within 6 %; each the other's mode; torsion lower, by distortion."""
-    s, beam = PLAIN.shell(), PLAIN.beam()
+    plain = box()
+    s, beam = plain.shell(), plain.beam()
     modes = s.modes(8)
-    criterion = shell_against_beam(s, modes, beam, s.centre[1] - PLAIN.section.shear_centre[1])
+    criterion = shell_against_beam(s, modes, beam, s.centre[1] - plain.section.shear_centre[1])
     ours = dict(zip(modes.names, range(8), strict=True))
     for name, limit in (("vertical bending 1", 0.02), ("lateral bending 1", 0.06)):
         other = int(np.argmax(criterion[ours[name]]))

@@ -6,9 +6,10 @@ Deck files are read in `decks`. The elements are in `elements`, their assembly a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -20,13 +21,22 @@ from .influence import BeamRecovery
 from .inputs import InputError
 from .mesh import DENSE, BeamModes, Mesh
 
-__all__ = ["FIXITIES", "Beam", "BeamModes", "Bearing", "checked_spans"]
+__all__ = ["FIXITIES", "Beam", "BeamModes", "Bearing", "checked_spans", "spans_of"]
 
 _SHORTEST = 1e-3
 """Shortest span or distance of bearings as a share of the length: the deck's lowest frequency then keeps five digits."""
 
 
 _SWITCHES = ("shear_stiffness_vertical", "shear_stiffness_lateral", "rotary_inertia_vertical", "rotary_inertia_lateral")
+
+
+def spans_of(where: str, content: Mapping[str, Any]) -> Sequence[float]:
+    """Return the spans of a deck file, told by ``spans`` or, where there is one, by ``length``; not yet checked by `Beam`."""
+    if ("length" in content) == ("spans" in content):
+        raise InputError(f"{where}: length", content.get("length"), "give either length or spans")
+    if "spans" in content:
+        return content["spans"]
+    return [inputs.number(f"{where}: length", content["length"], above=0.0, unit="m")]
 
 
 def checked_spans(where: str, spans: Sequence[float]) -> tuple[float, ...]:

@@ -8,20 +8,20 @@ from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, field, fields, replace
 from functools import cached_property
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from . import inputs
-from .beam import Beam, Bearing, checked_spans
+from .beam import Beam, Bearing, checked_spans, spans_of
 from .bearings import on_deck, tables
+from .boxshell import BoxMesh, shell_of
 from .deck import Deck, checked_damping, damping_ratios
 from .inputs import InputError
-from .pads import DIRECTIONS, Pad
+from .pads import DIRECTIONS
 from .section import SectionProperties, refuse_crossing, section_properties
-from .shell import Plate, Shell, Strip
+from .shell import Shell
 
 __all__ = ["Box", "BoxMesh", "Pads", "box", "box_from_table"]
 
@@ -70,26 +70,6 @@ class Pads:
     def sides(self) -> tuple[int, ...]:
         """1 for the left web, -1 for the right one."""
         return {"both": (1, -1), "left": (1,), "right": (-1,)}[self.under]
-
-
-@dataclass(frozen=True)
-class BoxMesh:
-    """Numbers of elements of the shell: along each span, over a web's height, between the webs, over a cantilever."""
-
-    along: int = 40
-    web: int = 4
-    slab: int = 6
-    cantilever: int = 3
-
-    def __post_init__(self) -> None:
-        inputs.integer("mesh.along", self.along, least=4, most=400)
-        inputs.integer("mesh.web", self.web, least=1, most=50, remedy="A web without elements across joins nothing")
-        inputs.integer("mesh.slab", self.slab, least=2, most=100)
-        inputs.integer("mesh.cantilever", self.cantilever, least=1, most=50)
-
-    def refined(self, factor: float) -> BoxMesh:
-        """Return a mesh with `factor` times as many elements each way."""
-        return BoxMesh(*(max(2, round(factor * getattr(self, f.name))) for f in fields(self)))
 
 
 @dataclass(frozen=True)
@@ -202,11 +182,11 @@ class Box:
         inputs.number(f"{where}: poisson_ratio", self.poisson_ratio, above=-1.0, most=0.49)
         inputs.number(f"{where}: density", self.density, above=0.0, unit="kg/m3")
         self._refuse_geometry(where)
-        held = self.bearings or [Pads(x, ("y", "z") if i else ("x", "y", "z")) for i, x in enumerate(self._span_ends.tolist())]
+        held = self.bearings or [Pads(x, ("y", "z") if i else ("x", "y", "z")) for i, x in enumerate(self.span_ends.tolist())]
         named = [(f"{where}: bearing {i}", pads) for i, pads in enumerate(held, start=1)]
         for here, pads in named:
             pads.check(here)
-        placed = tuple(replace(pads, x=on_deck(here, pads.x, self._span_ends)) for here, pads in named)
+        placed = tuple(replace(pads, x=on_deck(here, pads.x, self.span_ends)) for here, pads in named)
         object.__setattr__(self, "bearings", placed)
         for key, y in inputs.table(f"{where}: tracks", self.tracks).items():
             inputs.number(f"{where}: tracks.{key}", y, least=-self.slab_width / 2, most=self.slab_width / 2, unit="m")
@@ -224,21 +204,22 @@ class Box:
         return float(sum(self.spans))
 
     @cached_property
-    def _span_ends(self) -> np.ndarray:
+    def span_ends(self) -> np.ndarray:
+        """Places where spans end, m, from 0."""
         return np.concatenate([[0.0], np.cumsum(self.spans)])
 
     @property
-    def _head_thickness(self) -> float:
+    def head_thickness(self) -> float:
         """Of the slab just inside the webs, m."""
         return max(self.slab_thickness, self.root_thickness)
 
     @property
     def _lean(self) -> float:
         """How much a web moves outwards for each metre upwards."""
-        rise = self.depth - self._head_thickness / 2 - self.bottom_thickness / 2
+        rise = self.depth - self.head_thickness / 2 - self.bottom_thickness / 2
         return (self.web_spacing - self.bottom_spacing) / 2 / rise
 
-    def _web(self, z: float) -> float:
+    def web(self, z: float) -> float:
         """Return y of the left web's middle plane at height z, m."""
         return self.bottom_spacing / 2 + self._lean * (z - self.bottom_thickness / 2)
 
@@ -248,18 +229,18 @@ class Box:
         return self.web_thickness * float(np.hypot(1.0, self._lean)) / 2
 
     def _refuse_geometry(self, where: str) -> None:
-        clear = self.depth - max(self._head_thickness, self.edge_thickness) - self.bottom_thickness
+        clear = self.depth - max(self.head_thickness, self.edge_thickness) - self.bottom_thickness
         if clear < 0.1:
             allowed = f"leaves {clear:.3g} m of height between slab and bottom, must leave 0.1 m"
             raise InputError(f"{where}: depth", self.depth, allowed, "Make the box deeper or its plates thinner")
         half = self._half_web
-        if min(self._web(self.depth - self._head_thickness), self._web(self.bottom_thickness)) - half < 0.05:
+        if min(self.web(self.depth - self.head_thickness), self.web(self.bottom_thickness)) - half < 0.05:
             allowed, remedy = "the webs run into each other", "Set them farther apart or make them thinner"
             raise InputError(f"{where}: web_thickness", self.web_thickness, allowed, remedy)
-        if 2 * max(self.web_spacing / 2, self._web(self.depth - self.root_thickness)) + 2 * half > self.slab_width + 1e-9:
+        if 2 * max(self.web_spacing / 2, self.web(self.depth - self.root_thickness)) + 2 * half > self.slab_width + 1e-9:
             allowed = f"the webs stand outside the slab, which is {self.slab_width:g} m wide"
             raise InputError(f"{where}: web_spacing", self.web_spacing, allowed, "Make the slab wider or set the webs closer")
-        if 2 * self._web(0.0) + 2 * half > self.slab_width + 1e-9:
+        if 2 * self.web(0.0) + 2 * half > self.slab_width + 1e-9:
             allowed = f"makes the bottom wider than the slab, which is {self.slab_width:g} m wide"
             raise InputError(f"{where}: bottom_spacing", self.bottom_spacing, allowed, "Lean the webs inwards")
         if not self.haunch_length < self.web_spacing / 2:
@@ -279,20 +260,20 @@ class Box:
     def outline(self) -> np.ndarray:
         """Corners of the concrete, y and z, m, shape (n, 2)."""
         half = self._half_web
-        under = self._web(self.depth - self.root_thickness) + half
+        under = self.web(self.depth - self.root_thickness) + half
         corners = [(self.slab_width / 2, self.depth), (self.slab_width / 2, self.depth - self.edge_thickness)]
         if under < self.slab_width / 2 - 1e-6:
             corners.append((under, self.depth - float(self.thickness(max(under, self.web_spacing / 2 + 1e-9)))))
-        corners.append((self._web(0.0) + half, 0.0))
+        corners.append((self.web(0.0) + half, 0.0))
         return np.array(corners + [(-y, z) for y, z in reversed(corners)])
 
     @cached_property
     def hole(self) -> np.ndarray:
         """Corners of the cell, y and z, m, shape (n, 2)."""
         half = self._half_web
-        top = self._web(self.depth - self._head_thickness) - half
+        top = self.web(self.depth - self.head_thickness) - half
         corners = [
-            (self._web(self.bottom_thickness) - half, self.bottom_thickness),
+            (self.web(self.bottom_thickness) - half, self.bottom_thickness),
             (top, self.depth - float(self.thickness(top))),
         ]
         knee = self.web_spacing / 2 - self.haunch_length
@@ -385,97 +366,8 @@ class Box:
     # ------------------------------------------------------------------ shell
 
     def shell(self, mesh: BoxMesh | None = None) -> Shell:
-        """Return the shell of this box.
-
-        Plates lie in the middle planes; a cantilever's runs straight from the web's head to its edge. Where a web runs into
-        the slab it would be counted twice: that strip carries shear only (see `Strip.counted`). At the bottom corners what
-        is counted twice and what is left out are equal. What mass is still missing beside the drawing lies on the webs' heads.
-        """
-        mesh = mesh or BoxMesh()
-        web, edge = self.web_spacing / 2, self.slab_width / 2
-        y = np.concatenate(
-            [
-                np.linspace(edge, web, mesh.cantilever + 1),
-                np.linspace(web, -web, mesh.slab + 1)[1:],
-                np.linspace(-web, -edge, mesh.cantilever + 1)[1:],
-            ]
-        )
-        top, low = self.depth - self._head_thickness / 2, self.bottom_thickness / 2
-        outer = np.interp(np.abs(y), [web, edge], [top, self.depth - self.edge_thickness / 2])
-        points = [np.column_stack([y, np.where(np.abs(y) > web, outer, self.depth - self.thickness(y) / 2)])]
-        heads = mesh.cantilever, mesh.cantilever + mesh.slab
-        strips = []
-        for i in range(len(y) - 1):
-            part = "slab" if heads[0] <= i < heads[1] else "cantilevers"
-            added = self.track_mass / self.web_spacing if part == "slab" else 0.0
-            # The mean over the strip keeps the mass of cantilevers and haunches.
-            share = (np.arange(20) + 0.5) / 20
-            strips.append(Strip(i, i + 1, float(self.thickness(y[i] + share * (y[i + 1] - y[i])).mean()), part, added))
-        heights = np.linspace(low, self.depth - self._head_thickness, mesh.web + 1)
-        feet, count = [], len(y)
-        for side, head in zip((1, -1), heads, strict=True):
-            points.append(np.column_stack([side * self._web(heights), heights]))
-            ids = [*range(count, count + len(heights)), head]
-            feet.append(count)
-            count += len(heights)
-            strips += [Strip(a, b, self.web_thickness, "webs") for a, b in zip(ids[:-2], ids[1:-1], strict=True)]
-            strips.append(Strip(ids[-2], ids[-1], self.web_thickness, "webs", counted=False))
-        across = np.linspace(self.bottom_spacing / 2, -self.bottom_spacing / 2, mesh.slab + 1)
-        points.append(np.column_stack([across[1:-1], np.full(mesh.slab - 1, low)]))
-        ids = [feet[0], *range(count, count + mesh.slab - 1), feet[1]]
-        strips += [Strip(a, b, self.bottom_thickness, "bottom") for a, b in zip(ids[:-1], ids[1:], strict=True)]
-        shell = Shell(
-            np.concatenate(points),
-            tuple(strips),
-            self._stations(mesh),
-            self.youngs_modulus,
-            self.poisson_ratio,
-            self.density,
-            plates=self._diaphragms(np.concatenate(points), heads, np.append(heights, top)),
-            pads=tuple(
-                Pad(p.x, p.length, feet[0 if side > 0 else 1], low + p.drop, p.fixed, dict(p.stiffness))
-                for p in self.bearings
-                for side in p.sides
-            ),
-        )
-        missing = self.concrete_mass + self.track_mass - shell.mass_per_metre
-        masses = dict.fromkeys(heads, missing / 2) | dict.fromkeys((0, len(y) - 1), self.edge_mass / 2)
-        return replace(shell, line_masses=masses)
-
-    def _stations(self, mesh: BoxMesh) -> np.ndarray:
-        places = [np.linspace(a, b, mesh.along + 1) for a, b in pairwise(self._span_ends)]
-        ends = [[-self.overhang], [self.length + self.overhang]] if self.overhang else []
-        return np.unique(np.round(np.concatenate([*places, *ends, self._diaphragm_places]), 9))
-
-    @property
-    def _diaphragm_places(self) -> np.ndarray:
-        """Bearing lines, which may lie inside a span, too, and inner diaphragms, m."""
-        inner = [np.linspace(a, b, self.inner_diaphragms + 2)[1:-1] for a, b in pairwise(self._span_ends)]
-        return np.unique(np.round(np.concatenate([self._bearing_lines, *inner]), 9))
-
-    @property
-    def _bearing_lines(self) -> np.ndarray:
-        """Places of bearings, m."""
-        return np.unique(np.round([p.x for p in self.bearings], 9))
-
-    def _diaphragms(self, points: np.ndarray, heads: tuple[int, int], heights: np.ndarray) -> tuple[Plate, ...]:
-        """Plates across; their grid joins the nodes of slab, webs and bottom."""
-        slab = points[heads[0] : heads[1] + 1]
-        low = heights[0]
-        spacing = np.interp(heights, [low, heights[-1]], [self.bottom_spacing, self.web_spacing])
-        share = np.linspace(0.5, -0.5, len(slab))
-        # Straight lines from bottom to slab; the slab's middle plane need not be level.
-        rise = (heights - low) / (heights[-1] - low)
-        grid = np.stack(
-            [spacing[:, None] * share, low + rise[:, None] * (slab[:, 1] - low)],
-            axis=2,
-        )
-        thickness = [
-            self.diaphragm_thickness if x in self._bearing_lines else self.inner_diaphragm_thickness
-            for x in self._diaphragm_places
-        ]
-        places = zip(self._diaphragm_places.tolist(), thickness, strict=True)
-        return tuple(Plate(x, t, grid) for x, t in places if t is not None)
+        """Return the shell of this box; see `boxshell.shell_of`."""
+        return shell_of(self, mesh or BoxMesh())
 
     def shell_deck(self, modes: int = 15, damping: tuple[float, float] | float = 0.0, mesh: BoxMesh | None = None) -> Deck:
         """Return the modal deck of the shell.
@@ -489,18 +381,17 @@ class Box:
         shell = self.shell(mesh)
         result = shell.modes(modes)
         ratios = damping_ratios(damping, result.frequencies_hz)
-        heads = mesh.cantilever, mesh.cantilever + mesh.slab
         return Deck(
             name=self.name,
             length=self.length,
             frequencies_hz=result.frequencies_hz,
             damping_ratios=ratios,
             mode_names=result.names,
-            shapes=shell.shapes(result.vectors, heads, 0.0, self.length),
+            shapes=shell.shapes(result.vectors, mesh.heads, 0.0, self.length),
             supports=tuple(sorted({p.x for p in self.bearings})),
             tracks=dict(self.tracks),
             width=self.slab_width,
-            track_height=self._head_thickness / 2,
+            track_height=self.head_thickness / 2,
             mass_per_metre=self.mass_per_metre,
         )
 
@@ -550,14 +441,12 @@ def box_from_table(name: str, content: dict[str, Any]) -> Box:
         Missing, unknown or wrong keys; see `Box`.
     """
     where = f"box {name}"
-    if ("length" in content) == ("spans" in content):
-        raise InputError(f"{where}: length", content.get("length"), "give either length or spans")
     dimensions = inputs.table(f"{where}: box", content["box"])
     inputs.keys(f"{where}: box", dimensions, _DIMENSIONS, _NEEDED)
     held = tables(where, content.get("bearing", []), [f.name for f in fields(Pads)], DIRECTIONS)
     return Box(
         name,
-        content["spans"] if "spans" in content else [content["length"]],
+        spans_of(where, content),
         bearings=tuple(Pads(**pads) for _, pads in held),
         tracks=inputs.table(f"{where}: tracks", content.get("tracks", {})),
         **dimensions,

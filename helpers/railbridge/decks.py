@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from . import exchange, inputs
-from .beam import Beam
+from .beam import Beam, spans_of
 from .bearings import FARTHEST, Bearing, tables
 from .box import BoxMesh, box_from_table
 from .deck import Deck, rayleigh
@@ -91,13 +91,11 @@ def _from_box(where: str, name: str, content: dict[str, Any]) -> Deck:
 def _from_beam(where: str, name: str, content: dict[str, Any]) -> Deck:
     """Build a deck from beam elements; see `beam`."""
     inputs.keys(where, content, _BEAM_KEYS, ["damping"])
-    if ("length" in content) == ("spans" in content):
-        raise InputError(f"{where}: length", content.get("length"), "give either length or spans")
-    spans = content["spans"] if "spans" in content else [_length(where, content["length"])]
+    spans = spans_of(where, content)
     tracks, width = _tracks(where, content)
     beam = Beam(
         name,
-        inputs.numbers(f"{where}: spans", spans, above=0.0, unit="m"),
+        spans,
         bearings=bearings(where, content.get("bearing", []), width),
         elements=content.get("elements"),
         continuous=content.get("continuous", True),
@@ -176,10 +174,6 @@ def _tracks(where: str, content: dict[str, Any]) -> tuple[dict[str, float], floa
     for key, y in tracks.items():
         inputs.number(f"{where}: tracks.{key}", y, least=None if half is None else -half, most=half, unit="m")
     return tracks, width
-
-
-def _length(where: str, length: Any) -> float:
-    return inputs.number(f"{where}: length", length, above=0.0, unit="m")
 
 
 def _from_section(where: str, s: dict[str, Any], rotary: bool) -> dict[str, float]:
