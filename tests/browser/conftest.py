@@ -1,16 +1,12 @@
-"""One server and one browser for all tests, a fresh page for each; what a failed test saw is kept in build/browser."""
+"""One server and one browser for all tests; what a failed test saw is kept in build/browser."""
 
 import os
-import re
 import secrets
 
 import pytest
-from chromium import NoBrowser, Record, running
-from served import NOTEBOOKS, ROOT, copy_without_outputs, jupyterlab
-from waiting import PATIENCE
-
-KEPT = ROOT / "build" / "browser"
-WINDOW = {"width": 1280, "height": 900}
+from chromium import NoBrowser, running
+from served import NOTEBOOKS, copy_without_outputs, jupyterlab
+from visit import Visit, visiting
 
 
 @pytest.fixture(scope="session")
@@ -42,36 +38,25 @@ def lab(home):
 
 
 @pytest.fixture
-def record():
-    return Record()
+def visit(browser):
+    with visiting(browser) as visit:
+        yield visit
 
 
 @pytest.fixture
-def page(browser, record, request):
-    context = browser.new_context(viewport=WINDOW)
-    context.set_default_timeout(1e3 * PATIENCE)
-    record.follow(context)
-    page = context.new_page()
-    yield page
-    if getattr(request.node, "went_wrong", False):
-        keep(request.node, page, record)
-    context.close()
+def page(visit):
+    return visit.page
 
 
-def keep(test, page, record):
-    """Store what can be seen, and what was written, when a test failed."""
-    KEPT.mkdir(parents=True, exist_ok=True)
-    name = re.sub(r"[^\w-]+", "_", test.name).strip("_")
-    page.screenshot(path=KEPT / f"{name}.png")
-    lines = [*record.console, "", "uncaught:", *record.uncaught, "", "kernel:", *record.kernel, "", "requests:", *record.requests]
-    for server in (value for value in test.funcargs.values() if hasattr(value, "said")):
-        lines += ["", f"server {server.url}:", server.said()]
-    (KEPT / f"{name}.log").write_text("\n".join(lines) + "\n", encoding="utf-8")
+@pytest.fixture
+def record(visit):
+    return visit.record
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
     report = yield
-    if report.when == "call":
-        item.went_wrong = report.failed
+    if report.failed and report.when != "teardown":
+        for visit in (value for value in item.funcargs.values() if isinstance(value, Visit)):
+            visit.keep(item.name)
     return report

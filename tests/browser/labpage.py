@@ -33,6 +33,12 @@ ALL_RUN = """path => {
             || code.some(model => outputs(model).some(output => output.type === 'error')));
 }"""
 OUTPUTS = "path => window.rbCode(path).flatMap(model => model.outputs.toJSON())"
+# The cell that was run last has its number and what it shows: either may come first.
+RESULT = """path => {
+    const {model} = window.rbNotebook(path).content.activeCell;
+    return model.executionCount !== null && model.outputs.length
+        && {source: model.sharedModel.getSource(), outputs: model.outputs.toJSON()};
+}"""
 STATE = """path => `${window.rbNotebook(path)?.sessionContext.kernelDisplayStatus}, cells run: `
     + window.rbCode(path).map(model => model.executionCount ?? '-').join(' ')"""
 
@@ -63,7 +69,7 @@ class NotebookOnPage:
 
     def _wait(self, condition):
         try:
-            wait_in(self.page, condition, self.path)
+            return wait_in(self.page, condition, self.path)
         except TimeoutError as error:
             error.add_note(f"{self.path}: kernel {self.page.evaluate(STATE, self.path)}")
             raise
@@ -73,6 +79,22 @@ class NotebookOnPage:
         self.page.get_by_role("menuitem", name="Run", exact=True).click()
         self.page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
         self._wait(ALL_RUN)
+
+    def run_new_cell(self, above, write):
+        """Make a cell below the one that holds the element `above`, let `write()` fill it by keyboard, and run it.
+
+        Returns
+        -------
+        dict
+            `source` and `outputs` of the new cell.
+        """
+        cell = above.locator("xpath=ancestor::*[contains(concat(' ', @class, ' '), ' jp-CodeCell ')]")
+        cell.locator(".cm-content").click()
+        for key in ("Escape", "b", "Enter"):
+            self.page.keyboard.press(key)
+        write()
+        self.page.keyboard.press("Control+Enter")
+        return self._wait(RESULT)
 
     def complaints(self):
         """What cells raised or warned, and what panels refuse."""

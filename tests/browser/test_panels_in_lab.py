@@ -1,35 +1,169 @@
-"""Every notebook with a panel, in JupyterLab: opened, run, its sliders moved by keyboard and by mouse."""
+"""Every notebook with something that moves, in JupyterLab: opened, run, and used as somebody before the screen would."""
+
+import re
 
 import pytest
 from chromium import leaves
 from labpage import NotebookOnPage
+from moving import AnimationOnPage
 from panel import PanelOnPage
 from served import notebooks_with_panels
+from visit import visiting
+
+PANELS = notebooks_with_panels()
+# A case of one's own, as a student writes it: with a step of 5 ms, 62 m/s leave ten samples in waves of 3.1 m, and not in 3 m.
+OWN_CASE = """import railbridge as rb
+waves = {f"track.{way}.wavelength": 4.0 for way in ("vertical", "lateral")}
+rb.panels.fixed_point(rb.case("paper").replace({"run.time_step": 5e-3, "run.speed": 62.0, "train.cars": 2, **waves}))"""
 
 
-@pytest.fixture
-def clean_lab(lab):
-    """JupyterLab without running kernels after the test."""
-    yield lab
+def displacement_at_iteration(said, w, t):
+    return f" m is {1e3 * w:.2f} mm at iteration " in said
+
+
+def largest_displacement(said, w, t):
+    return f" m are {1e3 * w:.2f} mm (t = {t:.2f} s)" in said
+
+
+def forcing_frequency(said, f):
+    return f"forcing frequency {f:.3f} Hz" in said
+
+
+def mode(said, f, ratio):
+    return f"{f:.3f} Hz, damping {100 * ratio:.2f} %" in said
+
+
+def steady_bounce(said, force):
+    """What is left of the run-up makes the largest force of a run larger than the steady one, by one per cent."""
+    return float(re.search(r"steady bounce ([\d.]+) kN", said).group(1)) == pytest.approx(force / 1e3, rel=0.015)
+
+
+# Whether the summary says what the last line of the panel's code gives.
+SAID = {
+    "00_start_here": displacement_at_iteration,
+    "02_irregularities": forcing_frequency,
+    "03_rigid_deck_forces": steady_bounce,
+    "04_deck_modes": mode,
+    "05_deck_response": largest_displacement,
+    "06_fixed_point_iteration": displacement_at_iteration,
+}
+
+
+# ---- one page for all tests of a notebook
+
+
+@pytest.fixture(scope="module")
+def name(request):
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def visited(name, browser, lab):
+    with visiting(browser, lab) as visit:
+        yield visit
     for session in lab.ask("api/sessions"):
         lab.ask(f"api/sessions/{session['id']}", method="DELETE")
 
 
-@pytest.mark.parametrize("name", notebooks_with_panels())
-def test_panel_follows_its_sliders(name, page, record, clean_lab):
-    written = len(clean_lab.said())
-    notebook = NotebookOnPage(page, clean_lab, name)
-    notebook.run_all()
-    assert notebook.complaints() == []
-    panels = [PanelOnPage(root) for root in page.locator(".rb-panel").all()]
-    assert panels, "no panel is shown"
-    for panel in panels:
-        panel.try_everything()
-    assert notebook.complaints() == []
-    assert record.left == []
-    assert record.uncaught == []
-    assert record.kernel == []
-    assert "Traceback" not in clean_lab.said()[written:]
+@pytest.fixture(scope="module")
+def notebook(visited, name):
+    shown = NotebookOnPage(visited.page, visited.server, name)
+    shown.run_all()
+    assert shown.complaints() == []
+    return shown
+
+
+@pytest.fixture(scope="module")
+def panel(notebook):
+    (root,) = notebook.page.locator(".rb-panel").all()
+    return PanelOnPage(root)
+
+
+@pytest.fixture(scope="module")
+def start(panel):
+    """What a panel shows first."""
+    return panel.begun()
+
+
+def of(*names):
+    return pytest.mark.parametrize("name", names, indirect=True)
+
+
+@of(*PANELS)
+def test_panel_follows_its_controls(visited, notebook, panel, start):
+    panel.try_controls(panel.restored(start))
+    assert notebook.complaints() == visited.complaints() == []
+
+
+@of(*PANELS)
+def test_the_code_gives_the_number_of_the_summary(visited, notebook, panel, start, name):
+    area = panel.code_area
+    assert not area.is_visible()
+    now = panel.restored(start)
+    panel.button("Show this as code").click()
+    area.wait_for()
+    code = area.input_value()
+    assert code.startswith("import railbridge as rb")
+    panel.press(panel.sliders.first, "ArrowRight")
+    now = panel.changed(now)
+    assert area.input_value() != code, "the code does not follow the controls"
+
+    panel.copy(area)
+    cell = notebook.run_new_cell(panel.root, lambda: panel.page.keyboard.press("Control+V"))
+    assert cell["source"].strip() == area.input_value().strip() != ""
+    (result,) = (out for out in cell["outputs"] if out["output_type"] == "execute_result")
+    values = map(float, re.findall(r"(?<![\w.])-?\d[\d.]*(?:e[+-]?\d+)?", result["data"]["text/plain"]))
+    assert SAID[name](now["summary"], *values), f"{result['data']['text/plain']} is not in: {now['summary']}"
+    panel.button("Hide the code").click()
+    area.wait_for(state="hidden")
+    assert notebook.complaints() == visited.complaints() == []
+
+
+@of("04_deck_modes")
+def test_a_value_that_cannot_be_is_refused_in_words(visited, notebook, panel, start):
+    """Rayleigh damping goes through two frequencies: typing the second beside the first leaves one."""
+    now = panel.restored(start)
+    first, second = panel.slider("at first (Hz)"), panel.slider("and second (Hz)")
+    panel.type_number(first, panel.number(second))
+    refused = panel.refused(now)
+    assert "Not possible" in refused["error"] and "two different frequencies" in refused["error"]
+    panel.press(first, "ArrowRight")
+    now = panel.changed(now)
+    panel.press(first, "ArrowLeft")
+    panel.refused(now)
+    panel.restored(start)
+    assert panel.alert.count() == 0
+    assert notebook.complaints() == visited.complaints() == []
+
+
+@of("06_fixed_point_iteration")
+def test_a_crossing_that_is_refused_says_why(visited, notebook, panel):
+    """A case of one's own may allow fewer values than its sliders: they are refused one by one, and the rest works."""
+    notebook.run_new_cell(panel.root, lambda: panel.page.keyboard.insert_text(OWN_CASE))
+    own = PanelOnPage(panel.page.locator(".rb-panel").nth(1))
+    now = own.begun()
+    wavelength = own.slider("wavelength (m)")
+    own.press(wavelength, "Home")
+    refused = own.refused(now)
+    for words in ("run.time_step = 0.005", "3 m of irregularity", "Leave run.time_step out"):
+        assert words in refused["error"]
+    own.press(wavelength, "ArrowRight")
+    assert "3.1 m waves" in own.changed(now)["summary"]
+    assert own.alert.count() == 0
+    assert notebook.complaints() == visited.complaints() == []
+
+
+@of("00_start_here")
+def test_the_train_runs_by_itself(visited, notebook, panel, start):
+    panel.try_player(panel.restored(start))
+    assert notebook.complaints() == visited.complaints() == []
+
+
+@of("01_vehicle_modes", "05_deck_response")
+def test_the_animation_waits_plays_and_pauses(visited, notebook):
+    (root,) = visited.page.locator("[data-animation]").all()
+    AnimationOnPage(root).try_everything()
+    assert notebook.complaints() == visited.complaints() == []
 
 
 def test_guard_sees_a_request_that_leaves_the_machine(page, record):

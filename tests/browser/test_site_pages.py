@@ -3,6 +3,7 @@
 import re
 
 import pytest
+from moving import AnimationOnPage
 from served import ROOT
 
 SITE = ROOT / "build" / "site"
@@ -77,6 +78,15 @@ def test_text_can_be_read_on_its_ground(scheme, page):
     ground, text = page.evaluate("() => [getComputedStyle(document.body).backgroundColor, getComputedStyle(document.body).color]")
     dark = [sum(map(int, re.findall(r"\d+", colour)[:3])) < 3 * 128 for colour in (ground, text)]
     assert dark == [scheme == "dark", scheme == "light"]
+
+
+@pytest.mark.parametrize("name", ["01_vehicle_modes", "05_deck_response"])
+def test_animations_play_from_disk(name, page, record):
+    page.goto((SITE / "notebooks" / f"{name}.html").as_uri())
+    (root,) = page.locator("[data-animation]").all()
+    AnimationOnPage(root).try_everything()
+    assert record.uncaught == []
+    assert [url for url in record.requests if not url.startswith(("file:", "data:"))] == []
 
 
 def test_a_picture_of_the_gallery_leads_to_its_figure(page):
