@@ -93,7 +93,7 @@ def car_forces(
         style = look(name)
         shade_car(run, car, ax, label=ax is axes[0])
         values = style.factor * history[name]
-        curve(ax, name, run.time, values, color=style.colour, ls="-")
+        curve(ax, name, run.time, values, color=style.colour, ls=style.line)
         if steady and name in steady:
             middle = style.factor * float(run.coupling.static[car - 1][1::2].sum()) if static and name == "force_z" else 0.0
             level = style.factor * steady[name]
