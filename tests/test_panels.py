@@ -227,7 +227,7 @@ def test_the_code_runs_and_gives_the_number_of_the_summary(all_panels, name, val
 def test_the_paper_case_gives_the_known_numbers(all_panels):
     assert "steady bounce 75.8 kN, pitch 66.1 kN m" in all_panels["rigid_forces"].summary
     assert "worst wheel unloading 0.149" in all_panels["rigid_forces"].summary
-    assert "forcing frequency 1.389 Hz, nearest vehicle frequency 1.334 Hz (car z)" in all_panels["irregularities"].summary
+    assert "forcing frequency 1.389 Hz, nearest vehicle frequency 1.334 Hz (car bounce)" in all_panels["irregularities"].summary
     assert "3.307 Hz, damping 3.00 %" in all_panels["deck_modes"].summary
     assert "damping would be 6.15 %" in all_panels["deck_modes"].summary
 

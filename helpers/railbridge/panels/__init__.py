@@ -21,6 +21,7 @@ from ..case import Case
 from ..case import case as load_case
 from ..crossing import Crossing
 from ..deck import rayleigh, rayleigh_ratio
+from ..plots.drawing import in_words
 from ..plots.scene import car_components, crossing_at, mark_now
 from ..train import CONDENSED, steady_forces
 from .control import Control
@@ -102,7 +103,7 @@ def irregularities(case: Case | None = None) -> Panel:
     def say(case, result, values):
         f = case.train.vehicles[0].modes()
         near = int(np.argmin(np.abs(f.frequencies_hz - _forcing(values))))
-        nearest = f"nearest vehicle frequency {f.frequencies_hz[near]:.3f} Hz ({f.names[near]})"
+        nearest = f"nearest vehicle frequency {f.frequencies_hz[near]:.3f} Hz ({in_words(f.names[near])})"
         return _begin(case, values) + f"forcing frequency {_forcing(values):.3f} Hz, {nearest}."
 
     return Panel(

@@ -7,7 +7,7 @@ import numpy as np
 from .. import inputs
 from ..crossing import Crossing
 from ..vehicle import FREEDOMS, Modes, Vehicle
-from .drawing import GREY, LOOKS, PALE
+from .drawing import GREY, LOOKS, MOTIONS, PALE
 from .player import INK, WIDE, Animation, Drawing, attributes, corners, mark, page, rounded
 from .sketches import VIEWS, body_boxes, body_levels, extent, mode_motion, moved, same_frequency, spring_ends, what_moves, zigzag
 
@@ -18,7 +18,6 @@ FEWEST, MOST = 4, 600
 """Frames of an animation."""
 _DECK = "#34495e"
 _MOTION, _FORCE = LOOKS["displacement_z"].colour, LOOKS["force_z"].colour
-_NAMES = dict(zip(FREEDOMS, ("sway", "bounce", "roll", "pitch", "yaw"), strict=True))
 
 # What `player` calls draw.
 _DRAW_MODE = """
@@ -157,7 +156,7 @@ def _kind(v: Vehicle, modes: Modes, i: int) -> str:
     """Name a mode by its freedom; of an equal pair no body can be named."""
     energy = np.diag(v.mass_matrix) * modes.shapes[:, i] ** 2
     share = {f: sum(e for e, label in zip(energy, modes.labels, strict=True) if label.endswith(f" {f}")) for f in FREEDOMS}
-    return _NAMES[max(share, key=lambda f: round(share[f] / energy.sum(), 6))]
+    return MOTIONS[max(share, key=lambda f: round(share[f] / energy.sum(), 6))]
 
 
 def _mode_drawing(v: Vehicle, motion: dict[str, np.ndarray]) -> tuple[Drawing, list, list, float]:

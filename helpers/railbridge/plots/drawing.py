@@ -20,6 +20,8 @@ from ..inputs import choice
 
 __all__ = ["COMPARED", "GREY", "LOOKS", "Look", "curve", "finish", "grid", "hold", "live", "mark", "note", "one", "shade"]
 
+MOTIONS = {"y": "sway", "z": "bounce", "roll": "roll", "pitch": "pitch", "yaw": "yaw"}
+"""Freedoms of a body in words."""
 WIDTH = 9.0  # inch, 900 px in a notebook
 GREY = "#8a8a8a"
 PALE = "#d9d9d9"
@@ -127,6 +129,11 @@ def found(ax: Axes, name: str):
     if not is_live(ax):
         return None
     return next((a for a in ax.get_children() if a.get_gid() == name), None)
+
+
+def in_words(mode: str) -> str:
+    """Return the name of a vehicle's mode in words: ``car z`` is the car's bounce."""
+    return " ".join(MOTIONS.get(part, part) for part in mode.split())
 
 
 def look(quantity: str) -> Look:

@@ -13,7 +13,7 @@ from ..inputs import InputError
 from ..track import FadeIn, Notch, Track
 from ..train import AxleTrain, Train
 from ..vehicle import Vehicle
-from .drawing import ALONG, COMPARED, TIME, curve, finish, is_live, log_frequencies, look, note, one, rung, shade
+from .drawing import ALONG, COMPARED, TIME, curve, finish, in_words, is_live, log_frequencies, look, note, one, rung, shade
 from .style import second
 
 
@@ -177,5 +177,4 @@ def frequencies(
 
 def _named_frequencies(modes) -> tuple[np.ndarray, tuple[str, ...]]:
     """Names without front and rear, which mix freely; y and z in words."""
-    words = {"y": "sway", "z": "bounce"}
-    return modes.frequencies_hz, tuple(" ".join(words.get(part, part) for part in n.split()[-2:]) for n in modes.names)
+    return modes.frequencies_hz, tuple(in_words(" ".join(name.split()[-2:])) for name in modes.names)
