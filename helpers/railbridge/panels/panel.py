@@ -31,7 +31,7 @@ FALLBACK = "Interactive panel: open this notebook in JupyterLab and run this cel
 DPI = 100
 REST = 0.3  # s without a move, after which the exact crossing is computed
 ROUGH_STEP = 8e-3  # s, at most, while a control is moved
-KEPT = 4  # results
+KEPT = 2  # results: the coarse and the exact one; each may hold 50 MB
 
 Draw = Callable[[Mapping[str, Any], Case, Any, Mapping[str, Any]], None]
 Go = Callable[[str], None]
