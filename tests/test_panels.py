@@ -2,6 +2,7 @@
 
 import asyncio
 import io
+import threading
 from base64 import b64decode
 
 import numpy as np
@@ -102,6 +103,59 @@ def test_a_moving_panel_answers_with_coarser_steps_and_exactly_at_rest(all_panel
     assert panel.words.value == said
     assert limits(panel) == shown
     panel.reset()
+
+
+def counting_panel(computed):
+    """A panel of one slider that notes what is computed: (speed, coarse, thread)."""
+
+    def compute(case, progress):
+        computed.append((case.settings.speed, case.settings.time_step > 2e-3, threading.get_ident()))
+
+    control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
+    case = rb.case("paper").replace({"run.time_step": None})
+    return panels.Panel(case, [control], [["a"]], lambda *_: None, lambda *_: "", compute=compute, rough=True)
+
+
+async def until(condition, seconds=20.0):
+    end = asyncio.get_running_loop().time() + seconds
+    while not condition():
+        assert asyncio.get_running_loop().time() < end
+        await asyncio.sleep(0.01)
+
+
+def test_the_step_that_goes_on_as_the_last_one_is_computed_ahead():
+    computed = []
+
+    async def work():
+        panel = counting_panel(computed)
+        panel.sliders["speed"].value = 20.5
+        await until(lambda: len(computed) == 3)
+        assert [c[:2] for c in computed] == [(20.0, False), (20.5, True), (21.0, True)]
+        panel.sliders["speed"].value = 21.0
+        await until(lambda: len(computed) == 4)
+        assert computed[3][:2] == (21.5, True), "21.0 was there, and what follows it is computed"
+        panel.sliders["speed"].value = 79.5
+        panel.sliders["speed"].value = 80.0
+        await until(lambda: (80.0, False) in [c[:2] for c in computed])
+        assert max(c[0] for c in computed) == 80.0, "nothing is computed beyond the slider's end"
+
+    asyncio.run(work())
+
+
+def test_a_panel_follows_where_it_was_made_whichever_thread_a_message_comes_in():
+    computed = []
+
+    async def work():
+        panel = counting_panel(computed)
+        for value in (30.0, 31.0):
+            await asyncio.to_thread(setattr, panel.sliders["speed"], "value", value)
+        await until(lambda: (31.0, False) in [c[:2] for c in computed])
+        return panel
+
+    panel = asyncio.run(work())
+    here = [c for c in computed if c[1] and c[0] in (30.0, 31.0)]
+    assert here and {thread for *_, thread in here} == {threading.get_ident()}
+    assert panel.case.settings.speed == 31.0
 
 
 def test_an_error_of_the_exact_crossing_is_said_when_the_panel_rests():

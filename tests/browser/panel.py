@@ -22,14 +22,14 @@ STATE = """async root => {
         return null;
     }
 }"""
-# A state counts once it is exact and has stood for QUIET milliseconds.
-QUIET = 150
-SETTLED = f"""async ([root, accept]) => {{
+# A state counts once it is exact and has stood for some milliseconds.
+QUIET, LONG = 150, 1500
+SETTLED = f"""async ([root, accept, quiet]) => {{
     const now = await ({STATE})(root);
     if (now === null) return false;
     const text = JSON.stringify(now);
     if (text !== root.rbText) [root.rbText, root.rbSince] = [text, performance.now()];
-    return now.exact && performance.now() - root.rbSince > {QUIET} && eval(accept)(now) && now;
+    return now.exact && performance.now() - root.rbSince > quiet && eval(accept)(now) && now;
 }}"""
 # Whether one step of a slider is in the sentence. The train's place is not: the sentence is about the whole crossing. A
 # thousandth of a hertz may be below its last digit, though it moves the curves by a part of a pixel.
@@ -70,9 +70,10 @@ class PanelOnPage:
 
     # ---- what it shows
 
-    def settled(self, accept="() => true"):
+    def settled(self, accept="() => true", quiet=QUIET):
         """Wait until what is shown stands still and `accept`, a JavaScript function of it, is true; return it."""
-        return wait_in(self.page, SETTLED, [self.root.element_handle(), accept], f"a panel that stands still with {accept}")
+        what = f"a panel that stands still with {accept}"
+        return wait_in(self.page, SETTLED, [self.root.element_handle(), accept, quiet], what)
 
     def begun(self):
         """Wait until there is a picture with its sentence."""
@@ -195,6 +196,15 @@ class PanelOnPage:
         self.drag(sliders[0], 0.7)
         self.changed(restored)
         assert self.number(sliders[0]) != number
+
+    def try_in_a_hurry(self, start):
+        """Move every slider without waiting for any answer and press *Paper case* at once: the last word counts."""
+        for slider in self.sliders.all():
+            there, _ = self.there_and_back(slider)
+            self.press(slider, {"ArrowRight": "End", "ArrowLeft": "Home"}[there])
+        self.button("Paper case").click()
+        same = " && ".join(f"now.{what} === {json.dumps(start[what])}" for what in ("controls", "summary"))
+        self.settled(f"now => {same} && now.error === ''", quiet=LONG)
 
     def try_list(self, chosen, now):
         """Choose each line of a list in turn; each has a picture and a sentence of its own. Return the state at its end."""

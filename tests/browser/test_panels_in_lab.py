@@ -136,6 +136,15 @@ def test_a_value_that_cannot_be_is_refused_in_words(visited, notebook, panel, st
     assert notebook.complaints() == visited.complaints() == []
 
 
+@of("04_deck_modes")
+def test_a_hurried_hand_is_followed_in_order(visited, notebook, panel, start):
+    """JupyterLab sends what sliders say to a thread of its own in the kernel, and what buttons say not always."""
+    now = panel.restored(start)
+    for _ in range(2):
+        panel.try_in_a_hurry(now)
+    assert notebook.complaints() == visited.complaints() == []
+
+
 @of("06_fixed_point_iteration")
 def test_a_crossing_that_is_refused_says_why(visited, notebook, panel):
     """A case of one's own may allow fewer values than its sliders: they are refused one by one, and the rest works."""

@@ -2,11 +2,13 @@
 
 While a control is moved, a crossing is computed with a coarser time step, with as many iterations as the exact one; when the
 control has rested, the exact one is computed beside it, so that the next move need not wait. The panel says which it shows.
+Before that, the step that would go on as the last one did is computed ahead.
 """
 
 from __future__ import annotations
 
 import asyncio
+import threading
 from base64 import b64encode
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
@@ -31,7 +33,8 @@ FALLBACK = "Interactive panel: open this notebook in JupyterLab and run this cel
 DPI = 100
 REST = 0.3  # s without a move, after which the exact crossing is computed
 ROUGH_STEP = 8e-3  # s, at most, while a control is moved
-KEPT = 2  # results: the coarse and the exact one; each may hold 50 MB
+PAUSE = 0.02  # s after a move, in which its picture leaves; then the next one is computed ahead
+KEPT = 3  # results: the coarse one, that of the next step, and the exact one, which may hold 50 MB
 
 Draw = Callable[[Mapping[str, Any], Case, Any, Mapping[str, Any]], None]
 Go = Callable[[str], None]
@@ -98,8 +101,9 @@ class Panel:
         self._draw, self._say, self._compute, self._line, self._rough = draw, say, compute, code, rough
         self._results: OrderedDict[tuple, tuple[Case, Any]] = OrderedDict()
         self._moves = 0
-        self._later: asyncio.TimerHandle | None = None
-        self._held = False
+        self._later: list[asyncio.TimerHandle] = []
+        self._held = self._called = False
+        self._home = _running_loop(), threading.get_ident()
         self.figure = Figure(figsize=size, dpi=dpi, layout="constrained")
         FigureCanvasAgg(self.figure)
         self._axes = self.figure.subplot_mosaic(axes, height_ratios=heights)
@@ -109,6 +113,7 @@ class Panel:
         self._draw(self._axes, *self._solve(values), values)
         live(self.figure)
         self._show()
+        self._at = values
 
     def _build(self) -> None:
         self.sliders = {n: c.widget(self.start[n]) for n, c in self.controls.items()}
@@ -203,35 +208,56 @@ class Panel:
         follow()
 
     def _moved(self) -> None:
-        """Follow a hand: roughly at once where that is quicker, exactly when it rests."""
+        """Follow a hand where the panel was made: a front end may hand its messages to several threads, in any order."""
         if self._held:
             return
-        try:
-            loop = asyncio.get_running_loop()
-        except RuntimeError:  # no kernel whose messages have to be answered: there is nobody to keep waiting
-            loop = None
-        values = self.values
+        loop, thread = self._home
+        if loop is None or loop.is_closed() or threading.get_ident() == thread:
+            self._follow()
+        elif not self._called:
+            self._called = True
+            loop.call_soon_threadsafe(self._follow)
+
+    def _follow(self) -> None:
+        """Show what the controls say now: roughly at once where that is quicker, exactly when they rest."""
+        self._called = False
+        loop, values = _running_loop(), self.values
+        before, self._at = self._at, values
+        # Without a kernel whose messages have to be answered there is nobody to keep waiting.
         if loop is None or not self._rough or self._key(values) in self._results:
             return self._show()
         self._show(rough=True)
         if self.error is None:
-            self._later = loop.call_later(REST, self._refine, loop, self._moves, values)
+            self._later = [loop.call_later(REST, self._aside, loop, values, False)]
+            ahead = self._expected(before, values)
+            if ahead is not None:
+                self._later.append(loop.call_later(PAUSE, self._aside, loop, ahead, True))
 
-    def _refine(self, loop: asyncio.AbstractEventLoop, move: int, values: dict[str, Any]) -> None:
-        """Compute the exact result in a thread of its own, and show it if the controls still stand there."""
+    def _expected(self, before: Mapping[str, Any], now: Mapping[str, Any]) -> dict[str, Any] | None:
+        """Return the values if the last step is followed by another like it; None where that cannot be said."""
+        moved = [self.controls[n] for n in now if now[n] != before[n]]
+        if len(moved) != 1 or moved[0].choices or not moved[0].paths:
+            return None
+        control, name = moved[0], moved[0].name
+        value = round(2 * now[name] - before[name], 12)
+        return {**now, name: value} if control.low <= value <= control.high else None
+
+    def _aside(self, loop: asyncio.AbstractEventLoop, values: dict[str, Any], rough: bool) -> None:
+        """Compute a result in a thread of its own; show the exact one if the controls still stand there."""
+        move = self._moves
 
         def go_on(_: str = "") -> None:
             if move != self._moves:
                 raise _StaleError
 
         def work() -> None:
-            result = self._solve(values, progress=go_on)
+            result = self._solve(values, rough, go_on)
             go_on()
             self._say(*result, values)  # works out what the picture needs, which results keep
 
         def done(task: asyncio.Future) -> None:
             stale = task.cancelled() or isinstance(task.exception(), _StaleError)
-            if not stale and move == self._moves:
+            if not (rough or stale) and move == self._moves:
                 self._show()  # from the results kept; what went wrong goes wrong again, and is said
 
         loop.run_in_executor(None, work).add_done_callback(done)
@@ -242,23 +268,25 @@ class Panel:
     def _solve(self, values: Mapping[str, Any], rough: bool = False, progress: Go | None = None) -> tuple[Case, Any]:
         """Return the case of some values and its result (that of a coarser one if rough), from those kept if it is there."""
         key = self._key(values, rough)
-        if key not in self._results:
+        found = self._results.get(key)
+        if found is None:
             changes: dict[str, Any] = {}
             for name, control in self.controls.items():
                 for path in control.paths:
                     put(changes, self._base, path, values[name])
             case = self._base.replace(changes)
             solved = _coarser(case) if rough else case
-            self._results[key] = case, self._compute(solved, progress)
+            self._results[key] = found = case, self._compute(solved, progress)
             while len(self._results) > KEPT:
                 self._results.popitem(last=False)
-        return self._results[key]
+        return found
 
     def _show(self, rough: bool = False) -> None:
         """Compute, draw, say; an error is said instead, and the picture stays as it was."""
         self._moves += 1
-        if self._later is not None:
-            self._later.cancel()
+        for timer in self._later:
+            timer.cancel()
+        self._later = []
         values = self.values
         try:
             case, result = self._solve(values, rough)
@@ -302,6 +330,13 @@ class Panel:
 
 # Readable on light and dark pages.
 _ALERT = "line-height:1.35;background:#fdecea;color:#7a0c17;border-left:4px solid #b00020;padding:4px 10px"
+
+
+def _running_loop() -> asyncio.AbstractEventLoop | None:
+    try:
+        return asyncio.get_running_loop()
+    except RuntimeError:
+        return None
 
 
 def _coarser(case: Case) -> Case:
