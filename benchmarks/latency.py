@@ -2,10 +2,11 @@
 
     python benchmarks/latency.py [PRESSES]
 
-Panels of the suite beside the plain way: `ipywidgets.interact` around the same crossing and the same figure. A press counts
-until the new picture is decoded and the browser paints its next frame. Panels are pressed in three ways: step after step, 0.1 s
-after each picture (the panel has then computed the next step ahead); by steps and leaps in turn, so that nothing computed ahead
-is of use; and after a rest, in which the exact crossing has been computed.
+Panels of the suite beside the plain way, `ipywidgets.interact` around the same crossing and the same figure, and beside pictures
+that are ready, which cost what browser, server and messages cost. A press counts until the new picture is decoded and the
+browser paints its next frame. Panels are pressed in three ways: step after step, 0.1 s after each picture (the panel has then
+computed the next step ahead); by steps and leaps in turn, so that nothing computed ahead is of use; and after a rest, in which
+the exact crossing has been computed.
 
 Milliseconds belong to the machine and to what else it does: the last column is the ratio to the plain way, in the same run.
 """
@@ -46,9 +47,21 @@ def show(speed):
 ipywidgets.interact(show, speed=ipywidgets.FloatSlider(20.0, min=5.0, max=80.0, step=0.5));
 """
 OURS = 'import railbridge as rb\nrb.panels.PANEL(rb.case("paper").replace({"run.time_step": None, "train.cars": CARS}))'
+READY = """
+import ipywidgets
+import railbridge as rb
+
+panel = rb.panels.rigid_forces(rb.case("paper").replace({"run.time_step": None, "train.cars": CARS}))
+ready = [panel.set(speed=speed).image.value for speed in (20.5, 21.0)]
+image = ipywidgets.Image(format="url", value=ready[0], layout=panel.image.layout)
+slider = ipywidgets.FloatSlider(20.0, min=5.0, max=80.0, step=0.5)
+slider.observe(lambda change: setattr(image, "value", ready[round(2 * change.new) % 2]), names="value")
+ipywidgets.VBox([slider, image])
+"""
 CASES = {
     "plain way, eight cars": (PLAIN, 8),
     "plain way, one car": (PLAIN, 1),
+    "two ready pictures in turn, nothing computed": (READY, 1),
     "explorer (00), eight cars, four iterations": (OURS.replace("PANEL", "overview"), 8),
     "explorer (00), one car, four iterations": (OURS.replace("PANEL", "overview"), 1),
     "fixed point (06), eight cars, four iterations": (OURS.replace("PANEL", "fixed_point"), 8),
@@ -142,7 +155,7 @@ def main(presses=30):
             notebook(home / "notebooks", f"case{i}", code.replace("CARS", str(cars)))
         with jupyterlab(home, secrets.token_hex(16)) as server:
             for i, (name, (code, cars)) in enumerate(CASES.items()):
-                for how, (keys, rest) in {"step after step": (STEPS, 0.1)}.items() if code is PLAIN else WAYS.items():
+                for how, (keys, rest) in {"step after step": (STEPS, 0.1)}.items() if code in (PLAIN, READY) else WAYS.items():
                     page = browser.new_context(viewport={"width": 1366, "height": 768}).new_page()
                     NotebookOnPage(page, server, f"case{i}").run_all()
                     times = measured(page, presses // 2 if code is PLAIN else presses, keys, rest)
