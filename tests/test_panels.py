@@ -158,6 +158,29 @@ def test_a_panel_follows_where_it_was_made_whichever_thread_a_message_comes_in()
     assert panel.case.settings.speed == 31.0
 
 
+def test_a_refusal_after_a_coarse_picture_promises_nothing():
+    control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
+
+    def compute(case, progress):
+        if case.settings.speed > 30.0:
+            raise RuntimeError("too fast")
+
+    case = rb.case("paper").replace({"run.time_step": None})
+    panel = panels.Panel(case, [control], [["a"]], lambda *_: None, lambda *_: "said", compute=compute, rough=True)
+
+    async def work():
+        panel.sliders["speed"].value = 25.0
+        assert "1 ms follows" in panel.words.value
+        panel.sliders["speed"].value = 40.0
+        assert "too fast" in panel.trouble.value
+        assert "said" in panel.words.value and "Time step up to 8 ms." in panel.words.value
+        assert "follows" not in panel.words.value
+        panel.sliders["speed"].value = 26.0
+        assert panel.trouble.value == "" and "1 ms follows" in panel.words.value
+
+    asyncio.run(work())
+
+
 def test_an_error_of_the_exact_crossing_is_said_when_the_panel_rests():
     def compute(case, progress):
         if case.settings.time_step < 2e-3 and case.settings.speed > 20.0:

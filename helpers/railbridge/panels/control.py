@@ -121,7 +121,6 @@ def _get(case: Case, path: str) -> Any:
 
 def put(changes: dict[str, Any], case: Case, path: str, value: Any) -> None:
     """Add a value to changes of a case; a number as last part of the path counts in a list of the case's."""
-    """Add a value to changes of a case; a number as last part of the path counts in a list of the case's."""
     parent, _, last = path.rpartition(".")
     if last.isdigit():
         values = changes.setdefault(parent, list(case.get(parent)))

@@ -102,7 +102,7 @@ class Panel:
         self._results: OrderedDict[tuple, tuple[Case, Any]] = OrderedDict()
         self._moves = 0
         self._later: list[asyncio.TimerHandle] = []
-        self._held = self._called = False
+        self._held = self._called = self._coarse = False
         self._home = _running_loop(), threading.get_ident()
         self.figure = Figure(figsize=size, dpi=dpi, layout="constrained")
         FigureCanvasAgg(self.figure)
@@ -297,20 +297,28 @@ class Panel:
             self.error = error
             said = f"<b>Not possible:</b> {escape(str(error))} (The picture shows the last possible case.)"
             self.trouble.value = f'<div role="alert" style="{_ALERT}">{said}</div>'
+            if self._coarse:  # nothing follows any more
+                self._write(False, f"Time step up to {_ms(ROUGH_STEP)}.")
             self._tell_asides(values)
             return
         self.case, self.summary, self.error = case, summary, None
         self.image.value = b"data:image/png;base64," + b64encode(self._picture.png())
-        said = f"<span{'' if rough else ' role=status'}>{escape(summary)}</span>"
+        note = ""
         if self._rough:
-            exact = f"{1e3 * case.settings.time_step:.2g} ms"
-            quick = f"{1e3 * ROUGH_STEP:.2g} ms"
-            said += f" <i>Moving: time step up to {quick}; {exact} follows.</i>" if rough else f" Time step {exact}."
-        self.words.value = f'<div style="line-height:1.35">{said}</div>'
+            exact = _ms(case.settings.time_step)
+            moving = f"<i>Moving: time step up to {_ms(ROUGH_STEP)}; {exact} follows.</i>"
+            note = moving if rough else f"Time step {exact}."
+        self._write(rough, note)
         self.trouble.value = ""
         self._tell_asides(values)
         if self.code_area.layout.display != "none":
             self.code_area.value = self.code
+
+    def _write(self, coarse: bool, note: str) -> None:
+        """Write the summary, to be read out where it stays."""
+        self._coarse = coarse
+        said = f"<span{'' if coarse else ' role=status'}>{escape(self.summary)}</span> {note}"
+        self.words.value = f'<div style="line-height:1.35">{said}</div>'
 
     def _tell_asides(self, values: Mapping[str, Any]) -> None:
         for name, label in self._asides.items():
@@ -330,6 +338,10 @@ class Panel:
 
 # Readable on light and dark pages.
 _ALERT = "line-height:1.35;background:#fdecea;color:#7a0c17;border-left:4px solid #b00020;padding:4px 10px"
+
+
+def _ms(seconds: float) -> str:
+    return f"{1e3 * seconds:.2g} ms"
 
 
 def _running_loop() -> asyncio.AbstractEventLoop | None:
