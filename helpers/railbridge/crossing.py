@@ -89,7 +89,7 @@ class Crossing:
     converged: bool | None
     shown: int
     coupling: Coupling = field(repr=False)
-    states: dict[int, DeckState] = field(repr=False)
+    states: dict[int, DeckState] = field(default_factory=dict, repr=False)
 
     @property
     def iterations(self) -> int:
@@ -416,9 +416,9 @@ def cross(
     if lead_in is not None:
         _warn_of_transient(coupling, track)
     if interaction == "rigid":
-        return Crossing(train, deck, track, settings, (coupling.at_rest(),), (), None, 0, coupling, {})
+        return Crossing(train, deck, track, settings, (coupling.at_rest(),), (), None, 0, coupling)
     if interaction == "direct":
-        return Crossing(train, deck, track, settings, (coupling.at_rest(), direct(coupling, progress)), (), None, 1, coupling, {})
+        return Crossing(train, deck, track, settings, (coupling.at_rest(), direct(coupling, progress)), (), None, 1, coupling)
     found = iterate(coupling, progress)
     last = len(found.changes)
     run = Crossing(train, deck, track, settings, found.passes, found.changes, found.converged, last, coupling, found.states)

@@ -204,12 +204,6 @@ class Stations:
     pairs: tuple[np.ndarray, np.ndarray]
     speed: float
 
-    def __iter__(self):
-        """Yield (first sample, values, slopes) of every station."""
-        for start, count, which in zip(self.starts, self.counts, self.which, strict=True):
-            values, slopes = self.tables[which]
-            yield int(start), values[:, :count], slopes[:, :count]
-
     @cached_property
     def components(self) -> tuple[slice, slice, slice]:
         """Where the pairs of each component stand."""
@@ -285,7 +279,7 @@ class Stations:
 
 def _windows(values: np.ndarray, starts: np.ndarray, count: int) -> np.ndarray:
     """Return `count` samples from each start on, shape (..., starts, count): a view where starts are evenly spaced."""
-    missing = int(starts[-1]) + count - values.shape[-1]
+    missing = int(starts.max()) + count - values.shape[-1]
     if missing > 0:
         values = np.concatenate([values, np.zeros((*values.shape[:-1], missing))], axis=-1)
     windows = sliding_window_view(values, count, axis=-1)
