@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import railbridge as rb
-from railbridge.vehicle import Body, Spring, Vehicle
+from railbridge.vehicles import Body, Spring, Vehicle
 
 CAR = rb.vehicle("xia2000")
 DECK = rb.deck("viaduct36")

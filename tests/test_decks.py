@@ -1,117 +1,259 @@
-"""Deck files: what the keys mean, and how they are refused."""
+"""The modal deck: Rayleigh damping, shapes, moving loads and the static correction."""
 
-import copy
-
+import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import railbridge as rb
-from railbridge import decks
-from railbridge.bearings import Bearing
+from railbridge.coupling import prepare
+from railbridge.decks import PiecewiseCubic
+from railbridge.settings import check
 
-SECTION = {
-    "youngs_modulus": 35e9, "poisson_ratio": 0.2, "density": 2500.0, "area": 4.8, "second_moment_vertical": 2.553,
-    "second_moment_lateral": 25.53, "torsion_constant": 5.59,
-}  # fmt: skip
-EI, EA, G = 35e9 * 2.553, 35e9 * 4.8, 35e9 / 2.4
-TABLE = {
-    "length": 36.0,
-    "section": SECTION,
-    "damping": {"modal": 0.02},
-    "width": 9.6,
-    "bearing": [
-        {"x": 0.0, "y": 1.5, "z": -1.3, "fixed": "y z", "stiffness": {"x": 6e9}},
-        {"x": 0.0, "y": -1.5, "z": -1.3, "fixed": "z"},
-        {"x": 36.0, "y": 1.5, "z": -1.3, "fixed": ["y", "z"]},
-        {"x": 36.0, "y": -1.5, "z": -1.3, "stiffness": {"z": 2e9}},
-    ],
-}
+L, M, EI = 36.0, 12e3, 8.93e10
 
 
-def changed(**more):
-    return {**copy.deepcopy(TABLE), **more}
+def simple(damping=0.02, modes=12):
+    return rb.Beam("simple", (L,), M, EI, 8.9e11, 8.15e10, polar_inertia=7.02e4).deck(modes, damping)
 
 
-def beam_of(deck):
-    return deck.recovery.beam
+def test_rayleigh_of_the_paper():
+    alpha, beta = rb.rayleigh(0.03, [3.307, 16.30])
+    assert (alpha, beta) == pytest.approx((1.0364, 4.870e-4), rel=2e-4)
+    assert rb.rayleigh_ratio(alpha, beta, np.array([3.307, 16.30])) == pytest.approx([0.03, 0.03])
+    least = np.sqrt(alpha / beta) / 2 / np.pi
+    assert least == pytest.approx(7.34, abs=0.01)
+    assert rb.rayleigh_ratio(alpha, beta, np.array([least, 13.23, 1.389])) == pytest.approx([0.0225, 0.0265, 0.0615], abs=6e-5)
+    critical = (1 + np.sqrt(1 - alpha * beta)) / beta / 2 / np.pi
+    assert critical == pytest.approx(653, abs=1.0)
+    assert rb.deck("viaduct36").damping_ratios[0] == pytest.approx(0.03, abs=1e-5)
 
 
-def test_bearings_of_a_file_stand_where_it_says():
-    deck = decks.deck_from_table("b", TABLE)
-    assert deck.bearings == ((0.0, 1.5, -1.3), (0.0, -1.5, -1.3), (36.0, 1.5, -1.3), (36.0, -1.5, -1.3))
-    assert deck.supports == (0.0, 36.0)
-    assert beam_of(deck).bearings[0] == Bearing(0.0, ("y", "z"), 1.5, -1.3, {"x": 6e9})
-    assert [b.held for b in beam_of(deck).bearings] == [("x", "y", "z"), ("z",), ("y", "z"), ("z",)]
-    same = rb.Beam("b", (36.0,), 12e3, EI, 35e9 * 25.53, G * 5.59, EA, 2500 * 28.083, bearings=beam_of(deck).bearings)
-    assert deck.frequencies_hz == pytest.approx(same.deck(20).frequencies_hz, rel=1e-12)
+@pytest.mark.parametrize("wrong", [(0.6, [1, 2]), (-0.1, [1, 2]), (0.03, [2, 2]), (0.03, [1]), (0.03, [0, 1]), (0.03, 5)])
+def test_rayleigh_refuses(wrong):
+    with pytest.raises(rb.InputError, match="damping"):
+        rb.rayleigh(*wrong)
 
 
-def test_switches_of_a_file_are_off_unless_given():
-    usual = decks.deck_from_table("b", changed())
-    assert (beam_of(usual).shear_stiffness_vertical, beam_of(usual).rotary_inertia_vertical) == (None, None)
-    assert (beam_of(usual).continuous, usual.track_height, beam_of(usual).centroid_height) == (True, 0.0, 0.0)
-    section = {**SECTION, "shear_area_vertical": 1.4, "shear_area_lateral": 3.0}
-    deck = decks.deck_from_table("b", changed(section=section, rotary_inertia=True, track_height=1.1, centroid_height=0.2))
-    beam = beam_of(deck)
-    assert (beam.shear_stiffness_vertical, beam.shear_stiffness_lateral) == pytest.approx((G * 1.4, G * 3.0))
-    assert (beam.rotary_inertia_vertical, beam.rotary_inertia_lateral) == pytest.approx((2500 * 2.553, 2500 * 25.53))
-    assert (deck.track_height, beam.centroid_height) == (1.1, 0.2)
-    assert deck.frequencies_hz[0] < usual.frequencies_hz[0]
-    stiff = {
-        "length": 30.0, "mass": 1e4, "bending_stiffness_vertical": 5e10, "damping": {"modal": 0.01},
-        "shear_stiffness_vertical": 1e10, "rotary_inertia_vertical": 4e3,
-    }  # fmt: skip
-    assert beam_of(decks.deck_from_table("b", stiff)).shear_flexibility("vertical") == 5.0
+@given(seed=st.integers(0, 999), at=st.floats(0.01, 9.99))
+def test_piecewise_cubic_derivatives(seed, at):
+    rng = np.random.default_rng(seed)
+    edges = np.array([0.0, 2.0, 5.0, 10.0])
+    function = PiecewiseCubic(edges, rng.normal(size=(3, 4, 2, 3)))
+    h = 1e-4
+    if np.min(np.abs(edges - at)) > 2 * h:
+        x = np.array([at - h, at, at + h])
+        f, f1, f2 = (function(x, d) for d in range(3))
+        assert (f[2] - f[0]) / (2 * h) == pytest.approx(f1[1], abs=1e-6)
+        assert (f[2] - 2 * f[1] + f[0]) / h**2 == pytest.approx(f2[1], abs=1e-4)
+    assert not function(np.array([-0.1, 10.1])).any()
 
 
-def test_spans_that_do_not_run_through():
-    table = {k: v for k, v in TABLE.items() if k not in ("length", "bearing")}
-    deck = decks.deck_from_table("b", {**table, "spans": [20.0, 20.0], "continuous": False})
-    alone = decks.deck_from_table("b", {**table, "length": 20.0})
-    assert deck.frequencies_hz[:2] == pytest.approx([alone.frequencies_hz[0]] * 2, rel=1e-3)
-    assert len(deck.bearings) == 4
-    own = [
-        {"x": 0.0, "fixed": "x y z roll"},
-        {"x": 20.0, "fixed": "y z roll", "span": 1},
-        {"x": 20.0, "fixed": "x y z roll", "span": 2},
-        {"x": 40.0, "fixed": "y z roll"},
-    ]
-    told = decks.deck_from_table("b", {**table, "spans": [20.0, 20.0], "continuous": False, "bearing": own})
-    assert told.frequencies_hz == pytest.approx(deck.frequencies_hz, rel=1e-12)
+def moving_force(t, speed, load, x, modes, ratio):
+    """Displacement and moment of a simple beam under a constant force, mode by mode in closed form (Fryba 1972)."""
+    displacement, moment = np.zeros_like(t), np.zeros_like(t)
+    for n in range(1, modes + 1):
+        w = (n * np.pi / L) ** 2 * np.sqrt(EI / M)
+        drive, damped = n * np.pi * speed / L, w * np.sqrt(1 - ratio**2)
+        gain = -2 * load / M / L
+        # Particular solution a sin + b cos, then the free part that starts from rest.
+        matrix = np.array([[w**2 - drive**2, -2 * ratio * w * drive], [2 * ratio * w * drive, w**2 - drive**2]])
+        a, b = np.linalg.solve(matrix, [gain, 0.0])
+        c1, c2 = -b, -(a * drive + ratio * w * b) / damped
+        q = a * np.sin(drive * t) + b * np.cos(drive * t)
+        q += np.exp(-ratio * w * t) * (c1 * np.cos(damped * t) + c2 * np.sin(damped * t))
+        shape = np.sin(n * np.pi * x / L)
+        displacement += q * shape
+        moment += EI * (n * np.pi / L) ** 2 * q * shape
+    return displacement, moment
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"bearing": {"x": 0.0}}, r"deck b: bearing = .*must be a list of tables"),
-        ({"bearing": [{"fixed": "z"}]}, r"deck b: bearing 1\.x: is missing"),
-        ({"bearing": [{"x": 0.0}]}, r"deck b: bearing 1: fixed: is missing"),
-        ({"bearing": [{"x": 0.0, "fixed": 3}]}, r"bearing 1: fixed = 3: must list some of x y z"),
-        ({"bearing": [{"x": 0.0, "fixed": "x w"}]}, r"bearing 1: fixed = 'w'"),
-        ({"bearing": [{"x": 0.0, "fixed": "z", "y": 5.0}]}, r"bearing 1: y = 5.0: is off the deck, half width 4.8 m"),
-        ({"bearing": [{"x": 0.0, "fixed": "z", "z": -1300.0}]}, r"bearing 1: z = -1300.0"),
-        ({"bearing": [{"x": 40.0, "fixed": "z"}]}, r"bearing 1: x = 40.0"),
-        ({"bearing": [{"x": 0.0, "stiffness": {"z": -1.0}}]}, r"bearing 1: stiffness.z = -1.0"),
-        ({"bearing": [{"x": 0.0, "stiffness": 6e9}]}, r"bearing 1: stiffness = 6000000000.0: must be a table"),
-        ({"bearing": [{"x": 0.0, "fixed": "z", "stifness": {}}]}, r"bearing 1.stifness: unknown key"),
-        ({"bearing": TABLE["bearing"][1:]}, r"deck b: bearings = .*sliding along x"),
-        ({"bearing": [*TABLE["bearing"], TABLE["bearing"][0]]}, r"given to two bearings in one place"),
-        ({"bearing": [{"x": 0.0, "fixed": "z", "span": 1}]}, r"bearing 1: span = 1: can only be told of simple spans"),
-        ({"continuous": "no"}, r"continuous = 'no': must be true or false"),
-        ({"rotary_inertia": 3.0}, r"rotary_inertia = 3.0: must be true or false"),
-        ({"rotary_inertia_vertical": 3.0}, r"rotary_inertia_vertical = 3.0: a section is given too"),
-        ({"track_height": 1800.0}, r"track_height = 1800.0"),
-        ({"centroid_height": "low"}, r"centroid_height = 'low'"),
-        ({"section": {**SECTION, "shear_area_vertical": 0.0}}, r"section.shear_area_vertical = 0.0"),
-    ],
-    ids=str,
-)
-def test_bad_decks_are_refused_by_name(change, message):
-    with pytest.raises(rb.InputError, match=message):
-        decks.deck_from_table("b", changed(**change))
+@pytest.mark.parametrize("speed", [20.0, 60.0, 100.0])
+def test_one_moving_force_on_a_simple_beam(speed):
+    ratio, load, x = 0.02, 2e5, 14.0
+    run = rb.cross(rb.AxleTrain([0.0], [load]), simple(ratio, 36), speed=speed, time_step=2e-4, tail=0.0)
+    t = run.time
+    on = t < L / speed
+    displacement, moment = moving_force(t, speed, load, x, 12, ratio)
+    ours = run.displacement(x=x)["displacement_z"]
+    assert ours[on] == pytest.approx(displacement[on], abs=2e-4 * np.abs(displacement).max())
+    # With the static correction few modes give the moment that takes the series hundreds.
+    _, moment = moving_force(t, speed, load, x, 400, ratio)
+    few = rb.cross(rb.AxleTrain([0.0], [load]), simple(ratio, 36), speed=speed, time_step=2e-4, tail=0.0)
+    ours = few.section_forces(x=x)["moment_vertical"]
+    assert ours[on] == pytest.approx(moment[on], abs=6e-3 * np.abs(moment).max())
 
 
-def test_rotary_inertia_needs_a_section_or_numbers():
-    table = {"length": 30.0, "mass": 1e4, "bending_stiffness_vertical": 5e10, "damping": {"modal": 0.01}, "rotary_inertia": True}
-    with pytest.raises(rb.InputError, match="rotary_inertia = True: follows from a section only") as error:
-        decks.deck_from_table("b", table)
-    assert "rotary_inertia_vertical" in error.value.remedy
+def test_a_slowly_moving_force_gives_influence_lines():
+    load, speed, x = 1e5, 1.0, 9.0
+    train = rb.AxleTrain([0.0], [load])
+    run = rb.cross(train, simple(0.3, 9), speed=speed, time_step=0.02, tail=0.0, track_offset=2.4)
+    place = speed * run.time
+    on = (place > 0.5) & (place < L - 0.5) & (np.abs(place - x) > 0.1)
+    place = place[on]
+    forces = run.section_forces(x=x)
+    triangle = np.where(place < x, place * (L - x), x * (L - place)) / L
+    assert forces["moment_vertical"][on] == pytest.approx(-load * triangle, abs=2e-3 * load * 9)
+    shear = np.where(place < x, -place / L, 1 - place / L)
+    assert forces["shear_vertical"][on] == pytest.approx(-load * shear, abs=5e-3 * load)
+    assert forces["torsion"][on] == pytest.approx(-2.4 * load * shear, abs=5e-3 * 2.4 * load)
+    reactions = run.reactions()
+    left, right = reactions[0.0], reactions[L]
+    assert left["force_z"][on] == pytest.approx(load * (1 - place / L), abs=5e-3 * load)
+    assert right["force_z"][on] == pytest.approx(load * place / L, abs=5e-3 * load)
+    assert left["moment_x"][on] == pytest.approx(2.4 * load * (1 - place / L), abs=5e-3 * 2.4 * load)
+    assert (left["force_z"] + right["force_z"])[on] == pytest.approx(load, rel=5e-3)
+
+
+def test_couples_of_condensed_loads_do_work_on_slopes():
+    """A slow condensed car: moment lines of the resultant and of its couples, from the influence line's slope."""
+    car = rb.vehicle("xia2000")
+    body = car.bodies[0]
+    heavy_nose = rb.Vehicle(
+        "nose", (rb.Body(body.name, body.mass, body.inertia, (2.0, 0.0, 1.41)), *car.bodies[1:]), car.springs, 22.5
+    )
+    run = rb.cross(rb.Train(heavy_nose), simple(0.3, 9), speed=2.0, time_step=0.02, loads="condensed", tail=0.0, iterations=2)
+    place = 2.0 * run.time - 9.05
+    on = (place > 4.0) & (place < 17.0)
+    weight, couple = heavy_nose.weight, 2.0 * body.mass * 9.81  # about y at the middle: the load stands 2 m ahead
+    reaction = run.reactions()[L]["force_z"][on]
+    assert reaction == pytest.approx((weight * place[on] + couple) / L, rel=4e-2)
+
+
+@given(offset=st.floats(-3.0, 3.0), seed=st.integers(0, 99))
+@settings(max_examples=5)
+def test_loads_add_up(offset, seed):
+    """The deck is linear: three axles are the sum of three single ones, each later."""
+    rng = np.random.default_rng(seed)
+    loads = rng.uniform(5e4, 2e5, 3)
+    axles = [0.0, 4.0, 10.0]
+    together = rb.cross(rb.AxleTrain(axles, loads), DECK, speed=40.0, time_step=1e-3, track_offset=offset)
+    y = together.displacement(x=13.0)
+    total = {k: np.zeros_like(v) for k, v in y.values.items()}
+    for axle, load in zip(axles, loads, strict=True):
+        single = rb.cross(rb.AxleTrain([0.0], [load]), DECK, speed=40.0, time_step=1e-3, track_offset=offset, tail=1.5)
+        late = round(axle / 40.0 / 1e-3)
+        for k, v in single.displacement(x=13.0).values.items():
+            total[k][late:] += v[: len(total[k]) - late]
+    for k, v in total.items():
+        assert y[k] == pytest.approx(v, abs=1e-9 * np.abs(y["displacement_z"]).max())
+
+
+DECK = simple(0.02, 12)
+
+
+def test_names_tracks_and_frames():
+    deck = rb.deck("viaduct36")
+    assert deck.track_offset("left") == 2.4 and deck.track_offset("right") == -2.4
+    assert deck.has == {"y": True, "z": True, "roll": True}
+    assert len(deck.to_frame()) == 20
+    run = rb.cross(rb.AxleTrain([0.0], [1e5]), deck, speed=50.0)
+    frame = run.displacement(x=18.0).to_frame()
+    assert list(frame.columns) == ["displacement_y (m)", "displacement_z (m)", "rotation_x (rad)"]
+    value, time = run.displacement(x=18.0).extreme("displacement_z")
+    assert value < 0 and 0 < time < 1
+    with pytest.raises(rb.InputError, match="displacement_z"):
+        run.displacement(x=18.0)["displacment_z"]
+
+
+def test_static_values_of_the_lesson():
+    """Four axles and one resultant, m = 12.0 t/m: 4.810 and 6.372 mm, 2987 and 5272 kN m."""
+    recovery = rb.deck("viaduct36").recovery
+    w, m = (recovery.section(q, 18.0).influence for q in ("displacement_z", "moment_vertical"))
+    four = 18.0 + np.array([9.05, 6.55, -6.55, -9.05])
+    one = np.array([18.0])
+    total = 585.76e3
+    assert total * w(one)[:, 0, 1].mean() == pytest.approx(6.372e-3, rel=2e-3)
+    assert total * w(four)[:, 0, 1].mean() == pytest.approx(4.810e-3, rel=2e-3)
+    assert total * m(one)[:, 0, 1].mean() == pytest.approx(5272e3, rel=1e-3)
+    assert total * m(four)[:, 0, 1].mean() == pytest.approx(2987e3, rel=1e-3)
+
+
+def test_a_track_s_name_on_a_deck_that_names_none():
+    with pytest.raises(rb.InputError, match="the deck names no tracks"):
+        rb.Beam("b", (30.0,), 1e4, 5e10).deck(3).track_offset("left")
+
+
+def test_a_deck_is_made_once_so_its_numbers_cannot_be_changed():
+    deck = rb.case("paper").deck
+    with pytest.raises(ValueError, match="read-only"):
+        deck.frequencies_hz[0] = 1.0
+    assert deck == rb.case("paper").deck and deck != rb.deck("viaduct36")  # the same one, or another; never an error
+
+
+# ---- rails above the deck axis
+
+
+def high(height, modes=14):
+    """The shipped deck's beam with its rails at a height."""
+    return rb.Beam("b", (L,), M, EI, 8.9e11, 8.15e10, polar_inertia=7.02e4).deck(modes, 0.02, track_height=height)
+
+
+@pytest.mark.parametrize("loads", ["wheels", "bogies", "condensed"])
+def test_the_rail_s_motion_and_the_loads_do_the_same_work(loads):
+    """Power balance: what wheels do on the rail's motion is what modal forces do on the modes, whatever the height.
+
+    On the rail, v - h theta and w + y theta, from the shapes themselves; condensed loads do it on the motion at their own point.
+    """
+    rng = np.random.default_rng(4)
+    train, deck, offset, speed = rb.Train(rb.vehicle("xia2000")), high(1.7), 2.4, 25.0
+    s = check(train, deck, rb.Track(), speed=speed, time_step=2e-3, track_offset=offset, loads=loads)
+    coupling = prepare(train, deck, rb.Track(), s)
+    window = coupling.windows[0]
+    delta = [rng.normal(size=d.shape) * 1e4 for d in coupling.at_rest()]
+    state = coupling.deck_state(coupling.station_loads(delta))
+    forces = delta[0] + coupling.rigid[0][:, window] + coupling.static[0][:, None]
+    k = 700
+    q = rng.normal(size=len(deck.frequencies_hz))
+    power, contacts = 0.0, train.vehicles[0].contacts
+    middle = speed * coupling.time[k] - train.centres[0]
+    groups = {"wheels": lambda c: c.x, "condensed": lambda c: 0.0}
+    groups["bogies"] = lambda c: np.mean([other.x for other in contacts if other.body == c.body])
+    for i, contact in enumerate(contacts):
+        point = groups[loads](contact)
+        arm = contact.x - point
+        v, w, theta = q @ deck.shapes(np.array([middle + point]))[0]
+        slope_v, slope_w, _ = q @ deck.shapes(np.array([middle + point]), 1)[0]
+        lateral, vertical = forces[2 * i : 2 * i + 2, k - window.start]
+        power += lateral * (v - 1.7 * theta + arm * slope_v)
+        power += vertical * (w + (offset + contact.y) * theta + arm * slope_w)
+    assert q @ state.modal_force[:, k] == pytest.approx(power, rel=1e-9)
+
+
+def test_wheels_feel_the_rail_and_not_the_axis():
+    """Springs of Table 1 on v - h theta, with its total derivative, by hand."""
+    rng = np.random.default_rng(5)
+    train, deck, height, speed = rb.Train(rb.vehicle("xia2000")), high(1.7), 1.7, 25.0
+    s = check(train, deck, rb.Track(), speed=speed, time_step=2e-3)
+    coupling = prepare(train, deck, rb.Track(), s)
+    state = coupling.deck_state(coupling.station_loads(coupling.at_rest()))
+    q, velocity = (rng.normal(size=state.q.shape) for _ in range(2))
+    u = coupling.support_input(type(state)(q, velocity, state.modal_force), [0])[:, 0]
+    k, start = 701, coupling.windows[0].start
+    place = np.array([speed * coupling.time[k] - train.wheels[0].delay])
+    met, slope = deck.shapes(place)[0].T, deck.shapes(place, 1)[0].T
+    moved, rate = met @ q[:, k], met @ velocity[:, k] + speed * slope @ q[:, k]
+    expected = 20e6 * (moved[0] - height * moved[2]) + 15e3 * (rate[0] - height * rate[2])
+    assert u[0, k - start] == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_lateral_force_on_high_rails_twists_the_deck_by_the_lever():
+    """The torque is the car's rolling less h F_y; iterated and direct solutions agree on the twist."""
+    train = rb.Train(rb.vehicle("xia2000"))
+    track = rb.Track(lateral=rb.Harmonic(3e-3, wavelength=20.0))
+    common = {"speed": 30.0, "time_step": 1e-3, "lead_in": 60.0, "tail": 0.2}
+    with pytest.warns(UserWarning, match="transient"):
+        iterated = rb.cross(train, high(1.7), track, tolerance=1e-10, **common)
+        direct = rb.cross(train, high(1.7), track, interaction="direct", **common)
+        level = rb.cross(train, high(0.0), track, tolerance=1e-10, **common)
+    twist = iterated.displacement(L / 2)["rotation_x"]
+    assert direct.displacement(L / 2)["rotation_x"] == pytest.approx(twist, abs=1e-7 * np.abs(twist).max())
+    # On the axis only the car's rolling twists the deck; on high rails the lateral forces add -h F_y.
+    moment, without = iterated.reactions(), level.reactions()
+    forces = iterated.wheel_forces[:, 0]
+    on = (iterated.time > 0.8) & (iterated.time < 1.0)  # the whole car stands on the deck
+    torque = sum(h["moment_x"] for h in moment.values())[on]
+    roll = sum(f * w.y for f, w in zip(iterated.wheel_forces[:, 1], train.wheels, strict=True))[on]
+    quasi = -(roll - 1.7 * forces.sum(axis=0)[on])
+    assert np.abs(torque - quasi).max() < 0.1 * np.abs(quasi).max()  # less the deck's own inertia
+    assert np.abs(torque).max() > 1.3 * np.abs(sum(h["moment_x"] for h in without.values())[on]).max()

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import cumulative_simpson
 
 import railbridge as rb
-from railbridge.interaction import DeckState
+from railbridge.coupling import DeckState
 
 
 def few(examples):

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from railbridge.inputs import InputError
+from railbridge.errors import InputError
 from railbridge.response import LinearSystem, oscillator, ramp_coefficients, second_order_system
 
 

@@ -9,7 +9,8 @@ import json
 import time
 from pathlib import Path
 
-from railbridge import fitting, identification, inputs
+from railbridge.cases import shelf
+from railbridge.validation import fitting, identification
 
 DECK = """\
 # The deck of the paper's case study as ONE BOX THAT FITS: IDENTIFIED, NOT KNOWN. Figure 6 (section and properties) is missing.
@@ -66,7 +67,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--starts", type=int, default=6, help="random starts for each number of inner diaphragms (6)")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--to", type=Path, default=inputs.data_root(), help="folder of data to write to")
+    parser.add_argument("--to", type=Path, default=shelf.data_root(), help="folder of data to write to")
     options = parser.parse_args()
     begin = time.monotonic()
 

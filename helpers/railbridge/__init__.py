@@ -12,43 +12,53 @@ The ten lines everything else supports::
     run.displacement(x=18.0).to_frame()
 
 Everything is SI inside: m, kg, s, N. See the README for the conventions.
+
+The modules beside this file are the spine: what a course reads, in the order of the paper. Every folder is a room with a door,
+its ``__init__``; what stands in a room is loaded when it is first asked for.
 """
 
 from importlib import import_module as _import_module
 
-from .beam import Beam, Bearing
-from .box import Box, BoxMesh, Pads, box
-from .case import Case, case
-from .checks import compared
+from .beams import Beam, Bearing
 from .crossing import Crossing, NotConvergedError, cross
-from .deck import Deck, History, rayleigh, rayleigh_ratio
-from .decks import deck, deck_from_table
-from .fleet import planar_car, sprung_mass, vehicle
-from .inputs import InputError
+from .decks import Deck, History, rayleigh, rayleigh_ratio
+from .errors import InputError
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
-from .summary import summarize
-from .track import Harmonic, Level, Notch, Rails, Table, Track
-from .train import AxleTrain, Train, steady_forces
-from .vehicle import Body, Spring, Vehicle
+from .tracks import FadeIn, Harmonic, Level, Notch, Rails, Table, Track
+from .trains import AxleTrain, Train, steady_forces
+from .vehicles import Body, Spring, Vehicle, planar_car, sprung_mass, two_bogie_car
 
 __version__ = "0.1.0"
 
-__all__ = [
-    "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "Case", "Crossing", "Deck", "Harmonic", "History",
-    "InputError", "Level", "NotConvergedError", "Notch", "Pads", "Rails", "Spectrum", "Spring", "Table", "Track", "Train",
-    "Vehicle", "amplitude_spectrum", "box", "case", "compared", "cross", "deck", "deck_from_table", "deviation_percent",
-    "planar_car", "rayleigh", "rayleigh_ratio", "sprung_mass", "steady_forces", "summarize", "vehicle",
-]  # fmt: skip
+_ROOMS = {
+    "boxes": ("Box", "BoxMesh", "Pads"),
+    "cases": ("Case", "box", "case", "data_root", "deck", "deck_from_table", "summarize", "vehicle"),
+    "validation": ("compared",),
+}
+"""Names that a room offers here, too."""
+_MODULES = {
+    "exchange": "exchange", "identification": "validation.identification", "panels": "panels", "paper": "validation.paper",
+    "plots": "plots", "staggered": "exchange.staggered", "validation": "validation", "verification": "validation.verification",
+}  # fmt: skip
 
-_LAZY = ("identification", "panels", "paper", "plots", "staggered")
+__all__ = [
+    "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "Case", "Crossing", "Deck", "FadeIn", "Harmonic", "History",
+    "InputError", "Level", "NotConvergedError", "Notch", "Pads", "Rails", "Spectrum", "Spring", "Table", "Track", "Train",
+    "Vehicle", "amplitude_spectrum", "box", "case", "compared", "cross", "data_root", "deck", "deck_from_table",
+    "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio", "sprung_mass", "steady_forces", "summarize",
+    "two_bogie_car", "vehicle",
+]  # fmt: skip
 
 
 def __getattr__(name: str):
-    """Load the floors that need matplotlib or widgets only when they are first used."""
-    if name in _LAZY:
-        return _import_module(f".{name}", __name__)
+    """Open a room when something of it is first asked for."""
+    if name in _MODULES:
+        return _import_module(f".{_MODULES[name]}", __name__)
+    for room, names in _ROOMS.items():
+        if name in names:
+            return getattr(_import_module(f".{room}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted([*__all__, *_LAZY])
+    return sorted([*__all__, *_MODULES])

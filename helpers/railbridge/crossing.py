@@ -9,15 +9,15 @@ from functools import cached_property
 
 import numpy as np
 
-from . import inputs
-from .deck import BEARING_QUANTITIES, REACTION_QUANTITIES, SECTION_QUANTITIES, Deck, History, Line, Recovery
+from . import errors
+from .coupling import Coupling, DeckState, Delta, iterate, prepare
+from .decks import BEARING_QUANTITIES, REACTION_QUANTITIES, SECTION_QUANTITIES, Deck, History, Line, Recovery
 from .direct import direct
-from .inputs import InputError
-from .interaction import Coupling, DeckState, Delta, iterate, prepare
+from .errors import InputError
 from .settings import LEAD_IN_SECONDS, Settings, check
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
-from .track import Track
-from .train import CONDENSED, AxleTrain, Train, steady_forces
+from .tracks import Track
+from .trains import CONDENSED, AxleTrain, Train, steady_forces
 
 __all__ = ["Crossing", "Deviations", "NotConvergedError", "cross"]
 
@@ -110,7 +110,7 @@ class Crossing:
 
     def at(self, iteration: int) -> Crossing:
         """Return the same crossing as it stood at an iteration; 0 is the rigid deck's forces."""
-        return replace(self, shown=inputs.integer("iteration", iteration, most=self.iterations))
+        return replace(self, shown=errors.integer("iteration", iteration, most=self.iterations))
 
     @cached_property
     def wheel_forces(self) -> np.ndarray:
@@ -118,7 +118,7 @@ class Crossing:
 
         Order of wheels as in ``train.wheels``. After a car has left the deck its motion decays freely on the track.
         """
-        return inputs.frozen(np.concatenate([self._wheels_of(car) for car in range(len(self.coupling.rigid))]))
+        return errors.frozen(np.concatenate([self._wheels_of(car) for car in range(len(self.coupling.rigid))]))
 
     @cached_property
     def _known(self) -> dict[int, np.ndarray]:
@@ -129,7 +129,7 @@ class Crossing:
         """Wheel forces of one car (from 0), shape (its wheels, 2, n)."""
         if car not in self._known:
             felt = self._felt if self.shown > 0 else None
-            self._known[car] = inputs.frozen(self.coupling.car_wheel_forces(car, self.passes[self.shown], felt))
+            self._known[car] = errors.frozen(self.coupling.car_wheel_forces(car, self.passes[self.shown], felt))
         return self._known[car]
 
     @cached_property
@@ -154,12 +154,12 @@ class Crossing:
         """
         s = self.settings
         if not self.train.groups():
-            return inputs.frozen(np.zeros((0, 3, 2, len(self.time))))
+            return errors.frozen(np.zeros((0, 3, 2, len(self.time))))
         rigid = self.train.rigid_accelerations(self.track, s.speed, s.time_step, len(self.time), s.lead_in, s.excitation)
         if self.shown > 0:
             added = self.coupling.body_accelerations(self._felt)
             rigid = [r + a for r, a in zip(rigid, added, strict=True)]
-        return inputs.frozen(np.array(rigid).reshape(len(rigid), 3, 2, -1))
+        return errors.frozen(np.array(rigid).reshape(len(rigid), 3, 2, -1))
 
     def car_forces(self, car: int = 1, at: str = "track", static: bool = True) -> History:
         """Return one car's wheel forces condensed to five components over the whole record (Figures 9 to 11).
@@ -173,8 +173,8 @@ class Crossing:
         static : bool
             Whether the weight is counted.
         """
-        inputs.choice("at", at, ("track", "centre"))
-        index = inputs.integer("car", car, least=1, most=self.train.wheels[-1].car) - 1
+        errors.choice("at", at, ("track", "centre"))
+        index = errors.integer("car", car, least=1, most=self.train.wheels[-1].car) - 1
         forces = self._wheels_of(index).reshape(-1, len(self.time))
         if not static:
             forces = forces - self.coupling.static[index][:, None]
@@ -228,7 +228,7 @@ class Crossing:
         return self._motion("acceleration", x, self.deck.acceleration(s.q, s.velocity, s.modal_force), ("m/s2", "m/s2", "rad/s2"))
 
     def _motion(self, kind: str, x: float, modal: np.ndarray, units: tuple[str, ...], self_weight: bool = False) -> History:
-        x = inputs.number("x", x, least=0.0, most=self.deck.length, unit="m")
+        x = errors.number("x", x, least=0.0, most=self.deck.length, unit="m")
         shape = self.deck.shapes(np.array([x]))[0]
         names = [f"{kind}_y", f"{kind}_z", "rotation_x" if kind == "displacement" else f"{kind}_roll"]
         values = {}

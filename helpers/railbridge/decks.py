@@ -1,231 +1,419 @@
-"""Decks as data: the deck files of ``data/decks`` and the ``[deck]`` of a case.
+r"""A deck is a modal deck: frequencies, damping, shapes along its axis, and how to recover what was asked.
 
-A deck file says which maker builds the modal deck: a beam from a section or from stiffnesses, the dimensions of a box as a
-beam or as a shell, or another program's modes.
+With mass-normalised shapes v_m, w_m (lateral, vertical) and theta_m (twist) each mode obeys
+
+    q'' + 2 zeta omega q' + omega^2 q
+        = sum over loads of (v F_y + w F_z + theta M_x - w' M_y + v' M_z) at the load's place x = V t - d,
+
+with M_x about the deck axis. A wheel at y, riding on the deck, moves by ``w + y theta``, sideways by ``v - h theta`` where the
+rails lie h above the axis, and its support velocity is the
+total derivative ``w q' + V w' q``: the second, convective term is the climb along the deflected deck.
+
+Section forces and reactions are recovered as ``sum S_m q_m`` plus the static correction of the modes left out, which is
+the static influence line under the present loads minus its modal part. They are the elastic ones: the stiffness-
+proportional part of the damping is not counted.
 """
 
 from __future__ import annotations
 
-from dataclasses import fields
-from pathlib import Path
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import perm
+from typing import Protocol
 
-from . import exchange, inputs
-from .beam import Beam, spans_of
-from .bearings import FARTHEST, Bearing, tables
-from .box import BoxMesh, box_from_table
-from .deck import Deck, rayleigh
-from .inputs import InputError
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
-__all__ = ["deck", "deck_from_table"]
+from . import errors
+from .errors import InputError
+from .response import SampledModes, sampled_modes
 
-_STIFFNESSES = (
-    "bending_stiffness_vertical",
-    "bending_stiffness_lateral",
-    "torsional_stiffness",
-    "axial_stiffness",
-    "polar_inertia",
-    "shear_stiffness_vertical",
-    "shear_stiffness_lateral",
-    "rotary_inertia_vertical",
-    "rotary_inertia_lateral",
-)
-_SECTION = (
-    "youngs_modulus",
-    "poisson_ratio",
-    "density",
-    "area",
-    "second_moment_vertical",
-    "second_moment_lateral",
-    "torsion_constant",
-)
-_SHEAR_AREAS = ("shear_area_vertical", "shear_area_lateral")
-_BEAM_KEYS = (
-    "length", "spans", "section", *_STIFFNESSES, "mass", "damping", "modes", "bearing", "tracks", "width", "elements",
-    "continuous", "rotary_inertia", "centroid_height", "track_height", "name", "source", "note",
-)  # fmt: skip
-_BOX_KEYS = (
-    "length", "spans", "box", "model", "mesh", "shear", "rotary_inertia", "damping", "modes", "bearing", "tracks", "name",
-    "source", "note",
-)  # fmt: skip
+__all__ = [
+    "BEARING_QUANTITIES", "COMPONENTS", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
+    "PiecewiseCubic", "Recovery", "Stations", "checked_damping", "damping_ratios", "rayleigh", "rayleigh_ratio",
+]  # fmt: skip
+
+COMPONENTS = ("y", "z", "roll")
+"""What a shape consists of: lateral, vertical, twist."""
+
+SECTION_QUANTITIES = {
+    "displacement_y": "m", "displacement_z": "m", "rotation_x": "rad",
+    "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m", "shear_vertical": "N", "shear_lateral": "N",
+}  # fmt: skip
+REACTION_QUANTITIES = {"force_x": "N", "force_y": "N", "force_z": "N", "moment_x": "N m"}
+"""What a deck recovers at a section and at a bearing line, with units."""
+BEARING_QUANTITIES = {**REACTION_QUANTITIES, "moment_y": "N m", "moment_z": "N m"}
+"""What a deck recovers of one bearing, with units; moments about the bearing itself."""
 
 
-def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
-    """Build a modal deck from the content of a deck file or of a case's ``[deck]``.
+def rayleigh(ratio: float, frequencies_hz: Sequence[float]) -> tuple[float, float]:
+    """Return alpha (1/s) and beta (s) that give one damping ratio at two frequencies (Hz).
 
-    A beam's keys: ``length`` or ``spans`` (m) and ``continuous``; either ``[section]`` (E, nu, density, A, I_y, I_z, J, shear
-    areas) or stiffnesses and ``mass``; ``damping`` = {ratio, frequencies_hz} (Rayleigh) or {modal}; ``modes``; ``[[bearing]]``
-    x, y, z, fixed, stiffness, span; ``rotary_inertia``; ``centroid_height``; ``tracks``, ``width``, ``track_height``.
-    With the table ``[box]`` the deck is a box girder, ``model`` = "beam" (with ``shear``, ``rotary_inertia``) or "shell" (with
-    ``[mesh]``); see `box`. With ``modes`` as a table the deck comes from another program's modes; see `exchange`.
-
-    Raises
-    ------
-    InputError
-        Missing, unknown, contradictory or wrong keys, or a mechanism.
+    ``zeta = alpha / (2 omega) + beta omega / 2``; Section 2.4 of the paper asks 3 % at modes 1 and 5.
     """
-    where = f"deck {name}" if name != "deck" else name
-    if isinstance(content.get("modes"), dict):
-        return _from_modes(where, name, content)
-    return _from_box(where, name, content) if "box" in content else _from_beam(where, name, content)
+    ratio = errors.number("damping.ratio", ratio, least=0.0, most=0.5)
+    f1, f2 = errors.numbers("damping.frequencies_hz", frequencies_hz, count=2, above=0.0, unit="Hz")
+    if f1 == f2:
+        raise InputError("damping.frequencies_hz", list(frequencies_hz), "must be two different frequencies")
+    w1, w2 = 2 * np.pi * f1, 2 * np.pi * f2
+    return float(2 * ratio * w1 * w2 / (w1 + w2)), float(2 * ratio / (w1 + w2))
 
 
-def _from_box(where: str, name: str, content: dict[str, Any]) -> Deck:
-    """Build a deck from the dimensions of a box girder; see `box`."""
-    inputs.keys(where, content, _BOX_KEYS, ["box", "damping"])
-    girder = box_from_table(name, content)
-    damping = _damping(where, inputs.table(f"{where}: damping", content["damping"]))
-    if inputs.choice(f"{where}: model", content.get("model", "beam"), ("beam", "shell")) == "shell":
-        for key in ("shear", "rotary_inertia"):
-            if key in content:
-                raise InputError(f"{where}: {key}", content[key], "is a switch of the beam model", "Remove it, a shell has both")
-        mesh = inputs.table(f"{where}: mesh", content.get("mesh", {}))
-        inputs.keys(f"{where}: mesh", mesh, [f.name for f in fields(BoxMesh)])
-        return girder.shell_deck(content.get("modes", 15), damping, BoxMesh(**mesh))
-    if "mesh" in content:
-        raise InputError(f"{where}: mesh", content["mesh"], "belongs to the shell model", 'Remove it, or set model = "shell"')
-    switches = {k: inputs.boolean(f"{where}: {k}", content[k]) for k in ("shear", "rotary_inertia") if k in content}
-    return girder.beam_deck(content.get("modes", 20), damping, **switches)
+def rayleigh_ratio(alpha: float, beta: float, frequencies_hz: np.ndarray) -> np.ndarray:
+    """Return the damping ratio at each frequency (Hz)."""
+    omega = 2 * np.pi * np.asarray(frequencies_hz, dtype=float)
+    return alpha / (2 * omega) + beta * omega / 2
 
 
-def _from_beam(where: str, name: str, content: dict[str, Any]) -> Deck:
-    """Build a deck from beam elements; see `beam`."""
-    inputs.keys(where, content, _BEAM_KEYS, ["damping"])
-    spans = spans_of(where, content)
-    tracks, width = _tracks(where, content)
-    beam = Beam(
-        name,
-        spans,
-        bearings=bearings(where, content.get("bearing", []), width),
-        elements=content.get("elements"),
-        continuous=content.get("continuous", True),
-        centroid_height=content.get("centroid_height", 0.0),
-        **_properties(where, content),
-    )
-    damping = _damping(where, inputs.table(f"{where}: damping", content["damping"]))
-    return beam.deck(content.get("modes", 20), damping, tracks, width, track_height(where, content))
+def checked_damping(damping: Sequence[float] | float) -> Sequence[float] | float:
+    """Return (alpha, beta) of Rayleigh or one ratio for every mode, refused where it is neither."""
+    if np.isscalar(damping):
+        return errors.number("deck.damping", damping, least=0.0)
+    return errors.numbers("deck.damping", damping, count=2, least=0.0)
 
 
-def _properties(where: str, content: dict[str, Any]) -> dict[str, float]:
-    """Return a beam's mass, stiffnesses and inertias, from a section or as they are given."""
-    if ("section" in content) == ("mass" in content):
-        raise InputError(f"{where}: section", None, "give either a section or stiffnesses with mass, never both")
-    rotary = content.get("rotary_inertia", False)
-    if not isinstance(rotary, bool):
-        raise InputError(f"{where}: rotary_inertia", rotary, "must be true or false")
-    if "section" in content:
-        clash = [k for k in _STIFFNESSES if k in content]
-        if clash:
-            raise InputError(f"{where}: {clash[0]}", content[clash[0]], "a section is given too, never both", "Remove one")
-        return _from_section(f"{where}: section", inputs.table(f"{where}: section", content["section"]), rotary)
-    inputs.keys(where, content, content, ["bending_stiffness_vertical"])
-    if rotary:
-        remedy = "Give rotary_inertia_vertical and rotary_inertia_lateral, kg m"
-        raise InputError(f"{where}: rotary_inertia", rotary, "follows from a section only", remedy)
-    return {k: content[k] for k in (*_STIFFNESSES, "mass") if k in content}
+def damping_ratios(damping: Sequence[float] | float, frequencies_hz: np.ndarray) -> np.ndarray:
+    """Return the ratio of each mode from (alpha, beta) of Rayleigh or from one ratio."""
+    if np.isscalar(damping):
+        return np.full(len(frequencies_hz), damping)
+    return rayleigh_ratio(*damping, frequencies_hz)
 
 
-def bearings(where: str, given: Any, width: float | None = None) -> tuple[Bearing, ...]:
-    """Return the bearings of a deck file's ``[[bearing]]``; none given, none returned.
+@dataclass(frozen=True, eq=False)
+class PiecewiseCubic:
+    """Functions along the deck, cubic between edges.
 
-    Parameters
+    Attributes
     ----------
-    where : str
-        Of the deck, for errors.
-    given : list of tables
-        Each with x (m), y, z (m from the deck axis), fixed ("x y z"), stiffness (N/m, N m/rad by name) and span.
-    width : float, optional
-        Of the deck, m: bearings must stand below it.
-
-    Raises
-    ------
-    InputError
+    edges : ndarray, shape (e + 1,)
+        m, ascending.
+    coefficients : ndarray, shape (e, 4, n, 3)
+        Powers 0..3 of the local coordinate 0..1, for n functions of three components (y, z, roll), or of as many as there are.
     """
-    result = []
-    for here, content in tables(where, given, ["fixed", "y", "z", "stiffness", "span"]):
-        bearing = _bearing(here, content)
-        if width is not None and abs(bearing.y) > width / 2:
-            off = f"is off the deck, half width {width / 2:g} m"
-            raise InputError(f"{here}: y", bearing.y, off, "Move the bearing below the deck, or correct the width")
-        result.append(bearing)
-    return tuple(result)
+
+    edges: np.ndarray
+    coefficients: np.ndarray
+
+    def __call__(self, x: np.ndarray, derivative: int = 0) -> np.ndarray:
+        """Evaluate at x (m), shape (k,), or differentiate up to twice by x; returns shape (k, n, 3). Zero off the deck."""
+        x = np.asarray(x, dtype=float)
+        i = np.clip(np.searchsorted(self.edges, x, side="right") - 1, 0, len(self.edges) - 2)
+        h = np.diff(self.edges)[i]
+        local = (x - self.edges[i]) / h
+        factors = np.zeros((4, len(x)))
+        for p in range(derivative, 4):
+            factors[p] = perm(p, derivative) * local ** (p - derivative) / h**derivative
+        factors[:, (x < self.edges[0] - 1e-9) | (x > self.edges[-1] + 1e-9)] = 0.0
+        return np.einsum("pk,kpnc->knc", factors, self.coefficients[i])
 
 
-def track_height(where: str, content: dict[str, Any]) -> float:
-    """Return the height of the rails above the deck axis, m."""
-    return inputs.number(f"{where}: track_height", content.get("track_height", 0.0), least=-FARTHEST, most=FARTHEST, unit="m")
+@dataclass(frozen=True, eq=False)
+class Line:
+    """How one output follows from the deck's state and loads.
 
-
-def _from_modes(where: str, name: str, content: dict[str, Any]) -> Deck:
-    """Build a deck of which only the modes are known; see `exchange`."""
-    inputs.keys(where, content, exchange.FILE_KEYS)
-    tracks, width = _tracks(where, content)
-    damping = _damping(where, inputs.table(f"{where}: damping", content["damping"])) if "damping" in content else None
-    own = {"name": name, "tracks": tracks, "width": width, "track_height": track_height(where, content)}
-    return exchange.deck_from_files(where, content["modes"], damping, **own)
-
-
-def _tracks(where: str, content: dict[str, Any]) -> tuple[dict[str, float], float | None]:
-    """Return the named tracks and the width they must lie on, m."""
-    width = content.get("width")
-    width = None if width is None else inputs.number(f"{where}: width", width, above=0.0, unit="m")
-    tracks = inputs.table(f"{where}: tracks", content.get("tracks", {}))
-    half = width / 2 if width else None
-    for key, y in tracks.items():
-        inputs.number(f"{where}: tracks.{key}", y, least=None if half is None else -half, most=half, unit="m")
-    return tracks, width
-
-
-def _from_section(where: str, s: dict[str, Any], rotary: bool) -> dict[str, float]:
-    inputs.keys(where, s, _SHEAR_AREAS, _SECTION)
-    for key in s:
-        if key != "poisson_ratio":
-            inputs.number(f"{where}.{key}", s[key], above=0.0)
-    inputs.number(f"{where}.poisson_ratio", s["poisson_ratio"], above=-1.0, most=0.5)
-    e, density = s["youngs_modulus"], s["density"]
-    shear_modulus = e / (2 * (1 + s["poisson_ratio"]))
-    result = {
-        "mass": density * s["area"],
-        "bending_stiffness_vertical": e * s["second_moment_vertical"],
-        "bending_stiffness_lateral": e * s["second_moment_lateral"],
-        "torsional_stiffness": shear_modulus * s["torsion_constant"],
-        "axial_stiffness": e * s["area"],
-        "polar_inertia": density * (s["second_moment_vertical"] + s["second_moment_lateral"]),
-    }
-    for direction in ("vertical", "lateral"):
-        if f"shear_area_{direction}" in s:
-            result[f"shear_stiffness_{direction}"] = shear_modulus * s[f"shear_area_{direction}"]
-        if rotary:
-            result[f"rotary_inertia_{direction}"] = density * s[f"second_moment_{direction}"]
-    return result
-
-
-def _bearing(here: str, b: dict[str, Any]) -> Bearing:
-    place = {key: inputs.number(f"{here}: {key}", b[key], unit="m") for key in ("x", "y", "z") if key in b}
-    springs = inputs.table(f"{here}: stiffness", b.get("stiffness", {}))
-    bearing = Bearing(fixed=b["fixed"], stiffness=springs, span=b.get("span"), **place)
-    bearing.check(here)
-    return bearing
-
-
-def _damping(where: str, d: dict[str, Any]) -> tuple[float, float] | float:
-    here = f"{where}: damping"
-    if "modal" in d:
-        inputs.keys(here, d, [], ["modal"])
-        return inputs.number(f"{here}.modal", d["modal"], least=0.0, most=0.5)
-    inputs.keys(here, d, [], ["ratio", "frequencies_hz"])
-    return rayleigh(d["ratio"], d["frequencies_hz"])
-
-
-def deck(source: str | Path) -> Deck:
-    """Load a deck by shipped name (``viaduct36``) or from a ``.toml`` file.
-
-    Raises
-    ------
-    InputError
-        Unknown name (the nearest is suggested), or bad content.
+    Attributes
+    ----------
+    modal : ndarray, shape (modes,)
+        Output per unit modal coordinate, S_m.
+    influence : PiecewiseCubic
+        Static influence line of the three load components.
+    self_weight : float
+        The output under the deck's own weight.
     """
-    path = inputs.data_file("decks", source)
-    if path.suffix != ".toml":
-        raise InputError("deck", str(source), "deck files are TOML")
-    return deck_from_table(path.stem, exchange.beside(inputs.read_toml(path), path.parent))
+
+    modal: np.ndarray
+    influence: PiecewiseCubic
+    self_weight: float
+
+
+class Recovery(Protocol):
+    """What a deck maker provides so that section forces and reactions can be recovered."""
+
+    def section(self, quantity: str, x: float) -> Line | None:
+        """Return the line of a displacement or section force at x, None where the deck has no such stiffness."""
+
+    def reaction(self, quantity: str, support: float) -> Line | None:
+        """Return the line of a reaction, None where that freedom is not held."""
+
+    def bearing(self, number: int, quantity: str) -> Line | None:
+        """Return the line of a force of one of the deck's `bearings`, from 1, None where it does not hold that freedom."""
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """Named time histories with units.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s.
+    values : dict of ndarray, shape (n,)
+        By name; NaN where the deck has no such stiffness.
+    units : dict of str
+    """
+
+    time: np.ndarray
+    values: dict[str, np.ndarray]
+    units: dict[str, str]
+    where: str = ""
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self.values:
+            raise InputError("name", name, "no such history", errors.did_you_mean(name, self.values))
+        return self.values[name]
+
+    def to_frame(self):
+        """Return a pandas DataFrame, one column a history, indexed by time."""
+        import pandas as pd
+
+        columns = {f"{name} ({self.units[name]})": v for name, v in self.values.items()}
+        return pd.DataFrame(columns, index=pd.Index(self.time, name="t (s)"))
+
+    def extreme(self, name: str) -> tuple[float, float]:
+        """Return the value of largest magnitude, signed, and its time (s)."""
+        values = self[name]
+        i = int(np.argmax(np.abs(values)))
+        return float(values[i]), float(self.time[i])
+
+
+@dataclass(frozen=True, eq=False)
+class Stations:
+    """Loads that travel together along the deck: when each is on it, and the shapes it meets there.
+
+    Attributes
+    ----------
+    starts : ndarray of int, shape (s,)
+        First sample of each station on the deck.
+    counts : ndarray of int, shape (s,)
+        Number of samples on the deck.
+    tables : tuple of (values, slopes)
+        Shape values and slopes met, each shape (pairs, samples) over the (mode, component) pairs that are not zero.
+    which : ndarray of int, shape (s,)
+        Table of each station; stations that meet the grid alike share one.
+    pairs : tuple of ndarray
+        Mode and component of each pair, sorted by component.
+    speed : float
+        m/s.
+    """
+
+    starts: np.ndarray
+    counts: np.ndarray
+    tables: tuple[tuple[np.ndarray, np.ndarray], ...]
+    which: np.ndarray
+    pairs: tuple[np.ndarray, np.ndarray]
+    speed: float
+
+    @cached_property
+    def components(self) -> tuple[slice, slice, slice]:
+        """Where the pairs of each component stand."""
+        return tuple(slice(*np.searchsorted(self.pairs[1], [c, c + 1])) for c in range(3))
+
+    def alike(self, stations: np.ndarray) -> list[np.ndarray]:
+        """Return which of some stations (numbers from 0) share a table: positions within `stations`, a group each."""
+        which = self.which[stations]
+        return [np.flatnonzero(which == table) for table in np.unique(which)]
+
+    def modal_force(self, loads: Sequence[np.ndarray], modes: int, samples: int) -> np.ndarray:
+        """Return the modal forces of all loads.
+
+        Parameters
+        ----------
+        loads : sequence of ndarray, each shape (3 or 5, count)
+            F_y, F_z (N), M_x about the deck axis (N m), and M_y, M_z if the load has them, while on the deck.
+        modes, samples : int
+
+        Returns
+        -------
+        ndarray, shape (modes, samples)
+        """
+        ordered = np.zeros((len(self.pairs[0]), samples))
+        for members in self.alike(np.arange(len(self.starts))):
+            values, slopes = self.tables[self.which[members[0]]]
+            load = np.zeros((max(len(loads[s]) for s in members), len(members), values.shape[1]))
+            for place, station in enumerate(members):
+                load[: len(loads[station]), place, : loads[station].shape[1]] = loads[station]
+            part = np.empty((len(ordered), *load.shape[1:]))
+            for c, pairs in enumerate(self.components):
+                np.multiply(values[pairs, None], load[c], out=part[pairs])
+                if len(load) == 5 and c < 2:
+                    # A couple does work on the slope: M_z on v', and M_y on theta_y = -w'.
+                    part[pairs] += slopes[pairs, None] * (load[4] if c == 0 else -load[3])
+            for place, station in enumerate(members):
+                start, count = self.starts[station], self.counts[station]
+                ordered[:, start : start + count] += part[:, place, :count]
+        total = np.zeros((modes, samples))
+        for pairs in self.components:
+            total[self.pairs[0][pairs]] += ordered[pairs]
+        return total
+
+    def ordered(self, q: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+        """Return modal coordinates and velocities, shape (modes, n), of each pair's mode: shape (2, pairs, n)."""
+        return np.stack([q[self.pairs[0]], velocity[self.pairs[0]]])
+
+    def motion(self, state: np.ndarray, stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return what stations that share a table meet: y, z, roll of the deck, and their total time derivatives.
+
+        Parameters
+        ----------
+        state : ndarray, shape (2, pairs, n)
+            See `ordered`.
+        stations : ndarray of int, shape (s,)
+            Numbers from 0; see `alike`.
+
+        Returns
+        -------
+        moved, rate : ndarray, shape (3, s, samples of the longest)
+        """
+        values, slopes = self.tables[self.which[stations[0]]]
+        count = int(self.counts[stations].max())
+        values, climb = values[:, :count], self.speed * slopes[:, :count]
+        q, velocity = _windows(state, self.starts[stations], count)
+        moved, rate = np.empty((2, 3, len(stations), count))
+        for c, p in enumerate(self.components):
+            np.einsum("pt,pst->st", values[p], q[p], out=moved[c])
+            np.einsum("pt,pst->st", values[p], velocity[p], out=rate[c])
+            rate[c] += np.einsum("pt,pst->st", climb[p], q[p])
+        return moved, rate
+
+
+def _windows(values: np.ndarray, starts: np.ndarray, count: int) -> np.ndarray:
+    """Return `count` samples from each start on, shape (..., starts, count): a view where starts are evenly spaced."""
+    missing = int(starts.max()) + count - values.shape[-1]
+    if missing > 0:
+        values = np.concatenate([values, np.zeros((*values.shape[:-1], missing))], axis=-1)
+    windows = sliding_window_view(values, count, axis=-1)
+    steps = np.diff(starts)
+    if len(starts) == 1 or (steps[0] > 0 and np.all(steps == steps[0])):
+        return windows[..., starts[0] : starts[-1] + 1 : steps[0] if len(steps) else 1, :]
+    return windows[..., starts, :]
+
+
+@dataclass(frozen=True, eq=False)
+class Deck:
+    """A modal deck.
+
+    Attributes
+    ----------
+    name : str
+    length : float
+        m.
+    frequencies_hz, damping_ratios : ndarray, shape (m,)
+    mode_names : tuple of str
+        For instance ``vertical bending 1``.
+    shapes : PiecewiseCubic
+        Mass-normalised shapes of m modes (1/sqrt(kg), and 1/(m sqrt(kg)) for twist).
+    supports : tuple of float
+        Places of the bearing lines, m.
+    recovery : Recovery or None
+        How section forces and reactions follow; None where only modes are known.
+    tracks : dict of float
+        Distance of each named track to the left of the axis, m.
+    width : float or None
+        m.
+    mass_per_metre : float or None
+        kg/m.
+    bearings : tuple of (x, y, z)
+        Places of the single bearings, m; empty where only bearing lines are known.
+    track_height : float
+        Rails above the deck axis, m. A lateral wheel force then twists the deck, M_x = -h F_y, and the rail moves sideways by
+        v - h theta.
+    """
+
+    name: str
+    length: float
+    frequencies_hz: np.ndarray
+    damping_ratios: np.ndarray
+    mode_names: tuple[str, ...]
+    shapes: PiecewiseCubic
+    supports: tuple[float, ...] = ()
+    recovery: Recovery | None = field(default=None, repr=False)
+    tracks: dict[str, float] = field(default_factory=dict)
+    width: float | None = None
+    mass_per_metre: float | None = None
+    bearings: tuple[tuple[float, float, float], ...] = ()
+    track_height: float = 0.0
+
+    def __post_init__(self) -> None:
+        # Copies, since a deck is made once for many crossings.
+        for name in ("frequencies_hz", "damping_ratios"):
+            object.__setattr__(self, name, errors.frozen(np.array(getattr(self, name), dtype=float)))
+
+    @property
+    def has(self) -> dict[str, bool]:
+        """Whether the deck moves in y, z and roll."""
+        return dict(zip(COMPONENTS, np.any(self.shapes.coefficients != 0.0, axis=(0, 1, 2)).tolist(), strict=True))
+
+    def to_frame(self):
+        """Return a pandas DataFrame with one row a mode."""
+        import pandas as pd
+
+        columns = {"frequency (Hz)": self.frequencies_hz, "damping ratio": self.damping_ratios, "name": self.mode_names}
+        return pd.DataFrame(columns, index=pd.RangeIndex(1, len(self.mode_names) + 1, name="mode"))
+
+    def track_offset(self, track: float | str) -> float:
+        """Return a track's distance to the left of the axis, m, from its name or from the number itself."""
+        if isinstance(track, str):
+            if not self.tracks:
+                raise InputError(
+                    "train.track", track, "the deck names no tracks", "Give the distance from its axis, m, left positive"
+                )
+            errors.choice("train.track", track, self.tracks)
+            return self.tracks[track]
+        limit = self.width / 2 if self.width else None
+        return errors.number("train.track", track, least=None if limit is None else -limit, most=limit, unit="m")
+
+    def stations(self, delays: np.ndarray, speed: float, time_step: float, samples: int) -> Stations:
+        """Prepare loads that are `delays` (m, shape (s,)) behind x = V t.
+
+        A load counts while 0 <= x <= length, with a ten-thousandth of a step of tolerance, so that rounding does not decide
+        whether a sample at the very end is on the deck.
+        """
+        advance = speed * time_step
+        slack = 1e-4
+        starts = np.ceil(np.asarray(delays) / advance - slack).astype(int)
+        last = np.floor((np.asarray(delays) + self.length) / advance + slack).astype(int)
+        counts = np.minimum(last, samples - 1) - starts + 1
+        first = starts * advance - delays
+        pairs, shapes = self._pairs
+        keys = np.round(first / advance, 9)
+        unique, which = np.unique(keys, return_inverse=True)
+        places = [advance * (key + np.arange(counts[keys == key].max())) for key in unique]
+        ends = np.cumsum([len(x) for x in places])[:-1]
+        values, slopes = (
+            np.split(np.ascontiguousarray(shapes(np.clip(np.concatenate(places), 0.0, self.length), d)[:, 0].T), ends, axis=1)
+            for d in (0, 1)
+        )
+        return Stations(starts, np.maximum(counts, 0), tuple(zip(values, slopes, strict=True)), which, pairs, speed)
+
+    @cached_property
+    def _pairs(self) -> tuple[tuple[np.ndarray, np.ndarray], PiecewiseCubic]:
+        """The (mode, component) pairs that are not zero, sorted by component, and their shapes as components of one function."""
+        component, mode = np.nonzero(np.any(self.shapes.coefficients != 0.0, axis=(0, 1)).T)
+        coefficients = np.ascontiguousarray(self.shapes.coefficients[:, :, None, mode, component])
+        return (mode, component), PiecewiseCubic(self.shapes.edges, coefficients)
+
+    def sampled(self, time_step: float) -> SampledModes:
+        """Prepare the modes for one time step (s); they take modal forces and give coordinates and velocities."""
+        return sampled_modes(2 * np.pi * self.frequencies_hz, self.damping_ratios, time_step)
+
+    def acceleration(self, q: np.ndarray, velocity: np.ndarray, modal_force: np.ndarray) -> np.ndarray:
+        """Return modal accelerations from the equation of motion."""
+        omega = (2 * np.pi * self.frequencies_hz)[:, None]
+        return modal_force - 2 * self.damping_ratios[:, None] * omega * velocity - omega**2 * q
+
+    def recovered(self, line: Line | None, q: np.ndarray, modal_force: np.ndarray, static: np.ndarray) -> np.ndarray:
+        """Return an output history: modal part plus the static correction of the modes left out.
+
+        Parameters
+        ----------
+        line : Line or None
+            NaN is returned for None.
+        q, modal_force : ndarray, shape (modes, n)
+        static : ndarray, shape (n,)
+            The influence line under the present loads.
+        """
+        if line is None:
+            return np.full(q.shape[1], np.nan)
+        omega2 = (2 * np.pi * self.frequencies_hz) ** 2
+        return line.modal @ q + static - (line.modal / omega2) @ modal_force

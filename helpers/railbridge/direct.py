@@ -22,7 +22,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.linalg import block_diag
 
-from .interaction import Coupling, Delta
+from .coupling import Coupling, Delta
 from .response import LinearSystem, oscillator
 
 __all__ = ["direct"]

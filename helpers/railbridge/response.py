@@ -22,7 +22,7 @@ import numpy as np
 from scipy.linalg import eig, expm, matrix_balance
 from scipy.signal import lfilter
 
-from .inputs import number
+from .errors import number
 
 __all__ = [
     "LinearSystem", "SampledModes", "SampledResponse",

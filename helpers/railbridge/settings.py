@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import inputs
-from .deck import Deck
-from .inputs import InputError
-from .track import Track
-from .train import LOADS, AxleTrain, Train
+from . import errors
+from .decks import Deck
+from .errors import InputError
+from .tracks import Track
+from .trains import LOADS, AxleTrain, Train
 
 __all__ = ["Settings", "check", "default_time_step"]
 
@@ -69,21 +69,21 @@ def check(
     for name, value, kinds in [("train", train, (Train, AxleTrain)), ("deck", deck, Deck), ("track", track, Track)]:
         if not isinstance(value, kinds):
             raise InputError(name, value, f"must be a {name.title()}", f"Make one with railbridge.{name.title()}")
-    speed = inputs.number("run.speed", speed, above=0.0, most=200.0, unit="m/s", remedy="Give it in m/s: 72 km/h is 20")
-    inputs.choice("run.loads", loads, LOADS)
-    inputs.choice("run.interaction", interaction, ("iterate", "rigid", "direct"))
-    inputs.choice("run.excitation", excitation, ("wheels", "car"))
-    inputs.choice("run.feedback", feedback, ("all", "vertical"))
+    speed = errors.number("run.speed", speed, above=0.0, most=200.0, unit="m/s", remedy="Give it in m/s: 72 km/h is 20")
+    errors.choice("run.loads", loads, LOADS)
+    errors.choice("run.interaction", interaction, ("iterate", "rigid", "direct"))
+    errors.choice("run.excitation", excitation, ("wheels", "car"))
+    errors.choice("run.feedback", feedback, ("all", "vertical"))
     for name, value, needed in [("loads", loads, "wheels"), ("feedback", feedback, "all")]:
         if interaction == "direct" and value != needed:
             allowed = f"the direct solution couples true wheels and the whole motion, so it must be '{needed}'"
             raise InputError(f"run.{name}", value, allowed, "Or use run.interaction = 'iterate'")
     train.condensation(0, loads)
     if relaxation is not None and not isinstance(relaxation, str):
-        relaxation = inputs.number("run.relaxation", relaxation, above=0.0, most=1.0, remedy="Or use 'aitken'")
+        relaxation = errors.number("run.relaxation", relaxation, above=0.0, most=1.0, remedy="Or use 'aitken'")
     elif relaxation is not None:
-        inputs.choice("run.relaxation", relaxation, ("aitken",))
-    tail = inputs.number("run.tail", tail, least=0.0, most=1e4, unit="s")
+        errors.choice("run.relaxation", relaxation, ("aitken",))
+    tail = errors.number("run.tail", tail, least=0.0, most=1e4, unit="s")
     step = _time_step(train, deck, track, speed, time_step)
     lead_in = _lead_in(speed, step, lead_in)
     _refuse_size(train, deck, speed, step, lead_in, tail)
@@ -95,9 +95,9 @@ def check(
         track_offset=_track_offset(train, deck, track_offset),
         loads=loads,
         interaction=interaction,
-        tolerance=inputs.number("run.tolerance", tolerance, above=0.0, most=1.0),
-        max_iterations=inputs.integer("run.max_iterations", max_iterations, least=1, most=10_000),
-        iterations=None if iterations is None else inputs.integer("run.iterations", iterations, least=1, most=10_000),
+        tolerance=errors.number("run.tolerance", tolerance, above=0.0, most=1.0),
+        max_iterations=errors.integer("run.max_iterations", max_iterations, least=1, most=10_000),
+        iterations=None if iterations is None else errors.integer("run.iterations", iterations, least=1, most=10_000),
         relaxation=relaxation,
         excitation=excitation,
         feedback=feedback,
@@ -118,7 +118,7 @@ def _lead_in(speed: float, step: float, given: float | None) -> float:
     least = 2 * SAMPLES_PER_LENGTH * speed * step
     if given is None:
         return max(LEAD_IN_SECONDS * speed, least)
-    lead_in = inputs.number("run.lead_in", given, least=0.0, most=1e5, unit="m", remedy="0 means level track before the deck")
+    lead_in = errors.number("run.lead_in", given, least=0.0, most=1e5, unit="m", remedy="0 means level track before the deck")
     if 0.0 < lead_in < least * (1 - 1e-9):
         few = f"leaves fewer than {SAMPLES_PER_LENGTH} samples for the fade-in; must be 0 or at least {least:.3g} m"
         raise InputError("run.lead_in", lead_in, few, "Leave it out for 7.5 s of travel; 0 means level track before the deck")
@@ -138,7 +138,7 @@ def _refuse_size(train: Train | AxleTrain, deck: Deck, speed: float, step: float
 def _time_step(train: Train | AxleTrain, deck: Deck, track: Track, speed: float, given: float | None) -> float:
     if given is None:
         return default_time_step(train, track, speed)
-    step = inputs.number("run.time_step", given, above=0.0, unit="s")
+    step = errors.number("run.time_step", given, above=0.0, unit="s")
     shortest = min([track.shortest, *(n.shortest for n in train.notches)])
     for length, samples, what in [(shortest, SAMPLES_PER_LENGTH, "of irregularity"), (deck.length, 20, "of deck")]:
         if speed * step > length / samples * (1 + 1e-9):

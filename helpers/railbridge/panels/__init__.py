@@ -17,13 +17,13 @@ from typing import Any
 import numpy as np
 
 from .. import plots
-from ..case import Case
-from ..case import case as load_case
+from ..cases.definition import Case
+from ..cases.definition import case as load_case
 from ..crossing import Crossing
-from ..deck import rayleigh, rayleigh_ratio
+from ..decks import rayleigh, rayleigh_ratio
 from ..plots.drawing import in_words
 from ..plots.scene import car_components, crossing_at, mark_now
-from ..train import CONDENSED, steady_forces
+from ..trains import CONDENSED, steady_forces
 from .control import Control
 from .panel import DPI, FALLBACK, Panel
 

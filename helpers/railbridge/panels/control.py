@@ -8,9 +8,9 @@ from typing import Any
 
 import ipywidgets as widgets
 
-from .. import inputs
-from ..case import Case
-from ..inputs import InputError
+from .. import errors
+from ..cases.definition import Case
+from ..errors import InputError
 
 __all__ = ["Control", "present", "put", "read"]
 
@@ -65,11 +65,11 @@ class Control:
             Naming the control, the value and the range.
         """
         if self.choices:
-            return inputs.choice(self.name, value, self.choices)
+            return errors.choice(self.name, value, self.choices)
         whole = isinstance(self.step, int)
         if whole:
-            return inputs.integer(self.name, value, least=self.low, most=self.high)
-        return inputs.number(self.name, value, least=self.low, most=self.high, unit=self.unit, remedy="Panels take SI units")
+            return errors.integer(self.name, value, least=self.low, most=self.high)
+        return errors.number(self.name, value, least=self.low, most=self.high, unit=self.unit, remedy="Panels take SI units")
 
     def widget(self, value: Any) -> widgets.Widget:
         """Make the slider or list, showing a value given in SI units."""

@@ -19,9 +19,9 @@ import ipywidgets as widgets
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from .. import inputs
-from ..case import Case
-from ..inputs import InputError
+from .. import errors
+from ..cases.definition import Case
+from ..errors import InputError
 from ..plots.drawing import WIDTH, hold, live
 from ..plots.picture import Picture
 from ..settings import default_time_step
@@ -187,7 +187,7 @@ class Panel:
             An unknown control or a value out of range, before anything moves; or what the case says to the values.
         """
         for name in values:
-            inputs.choice("control", name, self.controls)
+            errors.choice("control", name, self.controls)
         self._put({n: self.controls[n].check(v) for n, v in values.items()}, self._show)
         if self.error is not None:
             raise self.error

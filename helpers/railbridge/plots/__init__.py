@@ -5,9 +5,9 @@ composed: give the axes of ``plt.subplots``; the two that move return an `Animat
 `drawing.LOOKS`: kN, kN m and mm. ``plt.style.use(rb.plots.STYLE)`` gives a notebook's own drawings the same looks.
 """
 
-from .animation import animate_crossing, animate_vehicle_mode
 from .deck import damping, deck_mode, deck_modes, influence_line
 from .forces import car_forces, spectra, spectrum, wheel_force, wheel_forces
+from .motion.animation import animate_crossing, animate_vehicle_mode
 from .response import (
     acceleration,
     convergence,

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import inputs
-from ..deck import Deck, rayleigh_ratio
-from ..inputs import InputError
+from .. import errors
+from ..decks import Deck, rayleigh_ratio
+from ..errors import InputError
 from .drawing import ALONG, GREY, curve, finish, grid, is_live, log_frequencies, look, note, one, rung
 
 
@@ -19,7 +19,7 @@ def deck_mode(deck: Deck, mode: int, ax: Axes | None = None) -> Axes:
     Twist is shown as the vertical motion at the deck's edge (1 m off the axis if the width is not known). Modes count from 1.
     """
     ax = one(ax, 2.2)
-    i = inputs.integer("mode", mode, least=1, most=len(deck.mode_names)) - 1
+    i = errors.integer("mode", mode, least=1, most=len(deck.mode_names)) - 1
     x = np.linspace(0.0, deck.length, 301)
     shape = deck.shapes(x)[:, i] * [1.0, 1.0, deck.width / 2 if deck.width else 1.0]
     shape = shape / np.abs(shape).max()

@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ..inputs import choice
+from ..errors import choice
 
 __all__ = ["COMPARED", "GREY", "LOOKS", "Look", "curve", "finish", "grid", "hold", "live", "mark", "note", "one", "shade"]
 

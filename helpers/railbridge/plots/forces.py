@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..crossing import Crossing
-from ..inputs import InputError
+from ..errors import InputError
 from ..spectra import Spectrum, deviation_percent
-from ..train import CONDENSED
+from ..trains import CONDENSED
 from .drawing import GREY, TIME, curve, finish, grid, look, mark, one, shade
 from .style import second
 

@@ -7,10 +7,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import inputs
+from .. import errors
 from ..crossing import Crossing
-from ..inputs import InputError
-from ..train import CONDENSED
+from ..errors import InputError
+from ..trains import CONDENSED
 from .drawing import COMPARED, GREY, TIME, curve, finish, grid, is_live, look, note, one, shade
 from .forces import shade_car, shade_train
 from .style import second
@@ -71,7 +71,7 @@ def _history(run: Crossing, history, name: str, ax: Axes | None, label: str | No
 def reactions(run: Crossing, ax: Axes | None = None, quantity: str = "force_z", self_weight: bool = False) -> Axes:
     """Plot the reactions of all bearing lines over time: ``force_z``, ``force_y`` or ``moment_x``."""
     ax = one(ax)
-    inputs.choice("quantity", quantity, ("force_y", "force_z", "moment_x"))
+    errors.choice("quantity", quantity, ("force_y", "force_z", "moment_x"))
     style = look(f"reaction_{quantity[-1]}")
     shade_train(run, ax)
     for (support, history), colour in zip(

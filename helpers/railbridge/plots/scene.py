@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import inputs
+from .. import errors
 from ..crossing import Crossing
-from ..train import CONDENSED
+from ..trains import CONDENSED
 from .drawing import ALONG, GREY, TIME, curve, finish, grid, look, note, one
 from .forces import shade_car
 
@@ -36,7 +36,7 @@ def crossing_at(run: Crossing, position: float, ax: Axes | None = None) -> Axes:
     """
     ax = one(ax, 2.2)
     deck, train = run.deck, run.train
-    position = inputs.number("position", position, unit="m")
+    position = errors.number("position", position, unit="m")
     now = int(np.clip(round(position / run.settings.speed / run.settings.time_step), 0, len(run.time) - 1))
     along = np.linspace(0.0, deck.length, 49)
     shape = deck.shapes(along)[:, :, 1]

@@ -10,10 +10,10 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import PathPatch, Polygon
 from matplotlib.path import Path
 
-from .. import inputs
-from ..box import Box
-from ..section import SectionProperties
-from ..shell import Shell, ShellModes
+from .. import errors
+from ..boxes.girder import Box
+from ..boxes.section import SectionProperties
+from ..boxes.shell import Shell, ShellModes
 from .drawing import GREY, LOOKS, curve, finish, grid, one
 
 __all__ = ["assurance", "box_section", "shell_mode", "shell_modes"]
@@ -108,8 +108,8 @@ def shell_mode(shell: Shell, modes: ShellModes, mode: int, ax: Axes | None = Non
         m, largest displacement as drawn.
     """
     ax = one(ax, 3.6)
-    i = inputs.integer("mode", mode, least=1, most=len(modes.names)) - 1
-    moved = modes.vectors[:, :3, i] * inputs.number("scale", scale, above=0.0, unit="m") / np.abs(modes.vectors[:, :3, i]).max()
+    i = errors.integer("mode", mode, least=1, most=len(modes.names)) - 1
+    moved = modes.vectors[:, :3, i] * errors.number("scale", scale, above=0.0, unit="m") / np.abs(modes.vectors[:, :3, i]).max()
     flat, _ = _seen(shell.nodes)
     edges = shell.points[:, 1] > shell.points[:, 1].max() - 0.5
     sides = np.flatnonzero(edges)[[np.argmin(shell.points[edges, 0]), np.argmax(shell.points[edges, 0])]]
@@ -178,7 +178,7 @@ def assurance(
     """
     criterion = np.asarray(criterion, dtype=float)
     if criterion.shape != (len(rows), len(columns)):
-        raise inputs.InputError(
+        raise errors.InputError(
             "criterion", criterion.shape, f"must have a row and a column for each name, {len(rows), len(columns)}"
         )
     ax = one(ax, 1.6 + 0.32 * len(rows))

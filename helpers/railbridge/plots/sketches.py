@@ -13,10 +13,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 
-from .. import inputs
-from ..deck import Deck
-from ..train import AxleTrain, Train
-from ..vehicle import FREEDOMS, Modes, Spring, Vehicle
+from .. import errors
+from ..decks import Deck
+from ..trains import AxleTrain, Train
+from ..vehicles import FREEDOMS, Modes, Spring, Vehicle
 from .drawing import GREY, LOOKS, PALE, WIDTH, curve, finish, note, one
 
 __all__ = ["train_on_deck", "vehicle", "vehicle_mode"]
@@ -265,7 +265,7 @@ def mode_motion(vehicle: Vehicle, mode: int, scale: float | None = None) -> tupl
     The largest motion of any drawn corner is `scale` (m; default 0.65, 0.35 for small vehicles); the leading freedom is positive.
     """
     modes = vehicle.modes()
-    i = inputs.integer("mode", mode, least=1, most=len(modes.names)) - 1
+    i = errors.integer("mode", mode, least=1, most=len(modes.names)) - 1
     boxes = body_boxes(vehicle)
     shape = dict(zip(modes.labels, modes.shapes[:, i], strict=True))
     motion = {b.name: np.array([shape.get(f"{b.name} {f}", 0.0) for f in FREEDOMS]) for b in vehicle.bodies}
@@ -315,7 +315,7 @@ def train_on_deck(train: Train | AxleTrain, deck: Deck, ax: Axes | None = None, 
         Heights are schematic.
     """
     ax = one(ax, 1.9)
-    at = 0.0 if position is None else inputs.number("position", position, unit="m")
+    at = 0.0 if position is None else errors.number("position", position, unit="m")
     cars, bogies = [], []
     for centre, car in zip(train.centres, getattr(train, "vehicles", ()), strict=False):
         middle, half = at - centre, 0.47 * car.length

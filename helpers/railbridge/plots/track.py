@@ -7,12 +7,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import inputs
-from ..deck import Deck
-from ..inputs import InputError
-from ..track import FadeIn, Notch, Track
-from ..train import AxleTrain, Train
-from ..vehicle import Vehicle
+from .. import errors
+from ..decks import Deck
+from ..errors import InputError
+from ..tracks import FadeIn, Notch, Track
+from ..trains import AxleTrain, Train
+from ..vehicles import Vehicle
 from .drawing import ALONG, COMPARED, TIME, curve, finish, in_words, is_live, log_frequencies, look, note, one, rung, shade
 from .style import second
 
@@ -51,7 +51,7 @@ def irregularity(
         values = {}
         for side in ("left", "right"):
             rail = track.rail(direction, side)
-            rail = rail if lead_in is None else FadeIn(rail, inputs.number("lead_in", lead_in, least=0.0, unit="m"))
+            rail = rail if lead_in is None else FadeIn(rail, errors.number("lead_in", lead_in, least=0.0, unit="m"))
             values[side] = rail.value(x) if _quantity == "irregularity" else rail.slope(x)
         style = look(f"{_quantity}_{direction}")
         same = np.array_equal(values["left"], values["right"])

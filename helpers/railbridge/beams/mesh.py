@@ -1,0 +1,321 @@
+r"""Finite elements of a straight beam on bearings: assembled matrices and named modes.
+
+Four fields (see `elements`): axial u of the centroid, lateral v and vertical w of the deck axis, which runs through the
+shear centres, and twist theta. The beam itself couples only v and theta, by a centroid off the axis: the velocity of the
+mass is that of v - z_c theta. Bearings off the axis couple the rest (see `bearings`): rigid ones are eliminated node by
+node, springs are added. Freedoms at a node: u, v, w, theta_x, psi_v = theta_z and psi_w = -theta_y, which are v' and w'
+without shear flexibility.
+
+Where simple spans meet there are two nodes at one place, and shapes may jump.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.linalg import eigh
+from scipy.sparse import coo_array, csc_array, csr_array
+from scipy.sparse.csgraph import connected_components
+from scipy.sparse.linalg import SuperLU
+
+from ..decks import PiecewiseCubic
+from . import elements
+from .bearings import null_space
+from .eigen import count_below, factorised, lowest
+from .elements import FIELDS
+
+if TYPE_CHECKING:
+    from .beam import Beam
+
+__all__ = ["FIELDS", "BeamModes", "Mesh"]
+
+_PLACE = {"axial": (0,), "lateral": (1, 4), "vertical": (2, 5), "torsion": (3,)}  # of a field among a node's freedoms
+_LABELS = {"axial": "axial", "lateral": "lateral bending", "vertical": "vertical bending", "torsion": "torsion"}
+MIXED = (0.25, 0.75)
+"""Share of axial kinetic energy between which a mode is called axial-bending."""
+DENSE = 400
+"""Coupled freedoms up to which all modes together cost no more than the few that are needed."""
+_SPARE = 6  # modes beyond those needed, among which a gap is sought
+
+
+@dataclass(frozen=True, eq=False)
+class BeamModes:
+    """Natural modes of a beam, all fields, ascending.
+
+    Attributes
+    ----------
+    frequencies_hz : ndarray, shape (m,)
+    names : tuple of str
+        ``vertical bending 1``, ``lateral bending 1``, ``torsion 1``, ``axial 1``, ``axial-bending 1`` ..., each numbered
+        within its kind. A mode is named after the field that holds most of its kinetic energy, that of the mass's own
+        lateral motion counted as lateral; but ``axial-bending`` where neither the axial share nor the rest reaches three
+        quarters, as with bearings below the axis. (Strain energy would be of no use on soft bearings, which hold most of it.)
+    vectors : ndarray, shape (freedoms, m)
+        Mass-normalised.
+    energies : dict of ndarray, shape (m,)
+        Share of the kinetic energy in each field.
+    """
+
+    frequencies_hz: np.ndarray
+    names: tuple[str, ...]
+    vectors: np.ndarray = field(repr=False)
+    energies: dict[str, np.ndarray] = field(repr=False)
+
+    @property
+    def excitable(self) -> np.ndarray:
+        """Which modes loads on the deck can excite, those that move it sideways, up or in twist, shape (m,)."""
+        return self.energies["axial"] < 1.0 - 1e-12
+
+
+class Mesh:
+    """Assembled matrices over given elements. Freedoms: six a node, then axial and twist mid-nodes of each element.
+
+    Attributes
+    ----------
+    edges : ndarray, shape (e + 1,)
+        Ends of the elements, m.
+    nodes : ndarray, shape (n,)
+        Places of the nodes, m; two at each joint between simple spans.
+    h : ndarray, shape (e,)
+        Lengths, m.
+    freedoms : dict of ndarray, shape (e, 3 or 4)
+        Of each field of each element.
+    """
+
+    def __init__(self, beam: Beam, edges: np.ndarray) -> None:
+        self.beam, self.edges = beam, edges
+        self.h = np.diff(edges)
+        count = len(self.h)
+        starts_piece = np.isin(edges[:-1], beam.joints)
+        first = np.arange(count) + np.cumsum(starts_piece)
+        self.nodes = np.insert(edges, np.flatnonzero(starts_piece), edges[:-1][starts_piece])
+        self._pieces = np.zeros(len(self.nodes), dtype=int)
+        self._pieces[first], self._pieces[first + 1] = (np.cumsum(starts_piece),) * 2
+        self.size = 6 * len(self.nodes) + 2 * count
+        middle = 6 * len(self.nodes) + np.arange(count)
+        start, stop = 6 * first, 6 * (first + 1)
+        self.freedoms = {
+            "axial": np.stack([start, middle, stop], axis=1),
+            "torsion": np.stack([start + 3, middle + count, stop + 3], axis=1),
+            "lateral": np.stack([start + 1, start + 4, stop + 1, stop + 4], axis=1),
+            "vertical": np.stack([start + 2, start + 5, stop + 2, stop + 5], axis=1),
+        }
+        self.phi = {name: np.full(count, beam.shear_flexibility(name)) * 12.0 / self.h**2 for name in FIELDS}
+        self.shapes = {name: elements.shape_matrices(name, self.h, self.phi[name]) for name in FIELDS}
+
+    def node(self, x: float, piece: int | None = None) -> int:
+        """Return the node at x (m); at a joint that of the given simple span (from 0), or else the first."""
+        distance = np.abs(self.nodes - x)
+        if piece is not None:
+            distance = np.where(self._pieces == piece, distance, np.inf)
+        return int(np.argmin(distance))
+
+    def line(self, x: float) -> np.ndarray:
+        """Return the nodes at x: one, or two at a joint."""
+        return np.flatnonzero(np.abs(self.nodes - x) < 1e-9 * self.edges[-1])
+
+    def shape_matrix(self, name: str, element: int) -> np.ndarray:
+        """Return T: powers of the local coordinate from the element's freedoms, shape (4, 3 or 4)."""
+        return self.shapes[name][element]
+
+    @cached_property
+    def fields(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Stiffness and mass of every element of each field the beam has."""
+        return {
+            name: elements.matrices(
+                name,
+                self.h,
+                self.phi[name],
+                self.beam.stiffness_of(name),
+                self.beam.polar_inertia if name == "torsion" else self.beam.mass,
+                self.beam.rotary_inertia(name),
+            )
+            for name in self.beam.fields
+        }
+
+    @cached_property
+    def _eccentric(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Mass that a centroid off the axis adds: rows, columns and values of each part."""
+        z, mass, dofs = self.beam.centroid_height, self.beam.mass, self.freedoms
+        if z == 0.0 or "torsion" not in self.beam.fields:
+            return []
+        parts = [("torsion", "torsion", mass * z**2)]
+        if "lateral" in self.beam.fields:
+            parts += [("lateral", "torsion", -mass * z), ("torsion", "lateral", -mass * z)]
+        return [(dofs[a], dofs[b], size * elements.coupling(self.h, self.shapes[a], self.shapes[b])) for a, b, size in parts]
+
+    @cached_property
+    def matrices(self) -> tuple[csr_array, csr_array]:
+        """K and M over all freedoms, bearings not yet applied, shape (size, size)."""
+        own = [(self.freedoms[name], *both) for name, both in self.fields.items()]
+        k = self._assembled([(dofs, dofs, stiffness) for dofs, stiffness, _ in own])
+        return k, self._assembled([(dofs, dofs, mass) for dofs, _, mass in own] + self._eccentric)
+
+    def _assembled(self, parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> csr_array:
+        """Add up parts, each with rows (e, n1), columns (e, n2) and values (e, n1, n2)."""
+        rows = np.concatenate([np.broadcast_to(r[:, :, None], v.shape).ravel() for r, _, v in parts])
+        columns = np.concatenate([np.broadcast_to(c[:, None, :], v.shape).ravel() for _, c, v in parts])
+        values = np.concatenate([v.ravel() for _, _, v in parts])
+        return coo_array((values, (rows, columns)), shape=(self.size, self.size)).tocsr()
+
+    # ---- bearings
+
+    @cached_property
+    def places(self) -> list[int]:
+        """The node of each bearing of the beam."""
+        return [self.node(b.x, self.beam.piece(b)) for b in self.beam.bearings]
+
+    @cached_property
+    def _present(self) -> np.ndarray:
+        """Which of a node's six freedoms the beam has."""
+        return np.array(sorted(p for name in self.beam.fields for p in _PLACE[name]))
+
+    def row(self, bearing: int, freedom: str) -> np.ndarray:
+        """Return the motion of a bearing (from 0) from its node's freedoms, those the beam lacks at rest, shape (6,)."""
+        row = np.zeros(6)
+        whole = self.beam.bearings[bearing].row(freedom, self.beam.centroid_height)
+        row[self._present] = whole[self._present]
+        return row
+
+    def rigid_rows(self, node: int) -> tuple[list[tuple[int, str]], np.ndarray]:
+        """Return which bearings hold which freedoms of a node rigidly, and the rows that say so, shape (r, 6)."""
+        keys = [(i, f) for i, n in enumerate(self.places) if n == node for f in self.beam.bearings[i].fixed]
+        return keys, np.array([self.row(*key) for key in keys]).reshape(-1, 6)
+
+    @cached_property
+    def basis(self) -> csr_array:
+        """Motions of all freedoms that the rigid bearings allow, shape (size, free)."""
+        held = set(self.places)
+        rows, columns, values, count = [], [], [], 0
+        for node in range(len(self.nodes)):
+            allowed = null_space(self.rigid_rows(node)[1][:, self._present]) if node in held else np.eye(len(self._present))
+            i, j = np.nonzero(allowed)
+            rows.append(6 * node + self._present[i])
+            columns.append(count + j)
+            values.append(allowed[i, j])
+            count += allowed.shape[1]
+        middles = np.concatenate([self.freedoms[n][:, 1] for n in ("axial", "torsion") if n in self.beam.fields] or [[]])
+        rows.append(middles.astype(int))
+        columns.append(count + np.arange(len(middles)))
+        values.append(np.ones(len(middles)))
+        entries = tuple(np.concatenate(part) for part in (values, rows, columns))
+        return csr_array((entries[0], entries[1:]), shape=(self.size, count + len(middles)))
+
+    @cached_property
+    def stiffness(self) -> csr_array:
+        """K with the springs of the bearings, shape (size, size)."""
+        springs = [(i, f, size) for i, bearing in enumerate(self.beam.bearings) for f, size in bearing.stiffness.items()]
+        if not springs:
+            return self.matrices[0]
+        rows = np.array([self.row(i, freedom) for i, freedom, _ in springs])
+        values = np.array([size for *_, size in springs])[:, None, None] * rows[:, :, None] * rows[:, None, :]
+        dofs = np.array([6 * self.places[i] for i, *_ in springs])[:, None] + np.arange(6)
+        return self.matrices[0] + self._assembled([(dofs, dofs, values)])
+
+    def _reduced(self, matrix: csr_array) -> csr_array:
+        return (self.basis.T @ matrix @ self.basis).tocsr()
+
+    @cached_property
+    def _factor(self) -> SuperLU:
+        return factorised(self._reduced(self.stiffness))
+
+    def solve(self, load: np.ndarray) -> np.ndarray:
+        """Return the static displacement of all freedoms under a nodal load; the bearings hold."""
+        return self.basis @ self._factor.solve(self.basis.T @ load)
+
+    # ---- modes
+
+    def modes(self, wanted: int | None = None) -> BeamModes:
+        """Solve each uncoupled group of freedoms on its own: a straight beam on bearings in its axis falls into four.
+
+        Parameters
+        ----------
+        wanted : int, optional
+            How many modes that loads can excite are needed; the lowest ones, and all others among them. By default all modes of
+            the mesh are given, which costs the cube of the freedoms that bearings couple; few modes cost their number only.
+        """
+        k, m = self._reduced(self.stiffness), self._reduced(self.matrices[1])
+        pattern = abs(k) + abs(m)
+        pattern.eliminate_zeros()
+        count, group = connected_components(pattern, directed=False)
+        groups = [np.flatnonzero(group == g) for g in range(count)]
+        enough = wanted
+        while True:
+            found = self._lowest(k, m, groups, enough)
+            if wanted is None or len(found.names) == k.shape[0] or int(np.sum(found.excitable)) >= wanted:
+                return found
+            enough *= 2
+
+    def _lowest(self, k: csr_array, m: csr_array, groups: list[np.ndarray], count: int | None) -> BeamModes:
+        """Return the `count` lowest modes and some more, as far as every group is known; all modes if None."""
+        solved, known = [], np.inf
+        for here in groups:
+            own = k[here][:, here], m[here][:, here]
+            solved.append(eigh(*(a.toarray() for a in own)) if count is None else _lowest_of(*own, count))
+            if len(solved[-1][0]) < len(here):
+                known = min(known, solved[-1][0][-1])
+        squares = np.concatenate([values for values, _ in solved])
+        order = np.argsort(squares, kind="stable")
+        order = order[squares[order] <= known][: None if count is None else 2 * count]
+        whose = np.repeat(np.arange(len(groups)), [len(values) for values, _ in solved])
+        firsts = np.cumsum([0, *(len(values) for values, _ in solved)])
+        vectors = np.zeros((self.size, len(order)))
+        for g, here in enumerate(groups):
+            own = np.flatnonzero(whose[order] == g)
+            vectors[:, own] = self.basis[:, here] @ solved[g][1][:, order[own] - firsts[g]]
+        energies = self._energies(vectors)
+        return BeamModes(np.sqrt(squares[order]) / (2 * np.pi), _names(energies), _signed(vectors), energies)
+
+    def _energies(self, vectors: np.ndarray) -> dict[str, np.ndarray]:
+        """Return the share of each field in the kinetic energy of every mode."""
+        result = {name: np.zeros(vectors.shape[1]) for name in FIELDS}
+        for name, (_, mass) in self.fields.items():
+            part = vectors[self.freedoms[name]]
+            result[name] += np.sum(part * (mass @ part), axis=(0, 1))
+        # The mass moves sideways by v - z_c theta; its own turning alone is torsion.
+        for rows, columns, values in self._eccentric:
+            result["lateral"] += np.sum(vectors[rows] * (values @ vectors[columns]), axis=(0, 1))
+        whole = sum(result.values())
+        return {name: part / whole for name, part in result.items()}
+
+    def interpolate(self, vectors: np.ndarray) -> PiecewiseCubic:
+        """Return lateral, vertical and twist shapes of nodal vectors, shape (size, n) or (size,)."""
+        vectors = vectors.reshape(self.size, -1)
+        result = np.zeros((len(self.h), 4, vectors.shape[1], 3))
+        for c, name in enumerate(("lateral", "vertical", "torsion")):
+            if name in self.beam.fields:
+                result[..., c] = self.shapes[name] @ vectors[self.freedoms[name]]
+        return PiecewiseCubic(self.edges, result)
+
+
+def _lowest_of(k: csr_array, m: csr_array, wanted: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return omega^2 and shapes of one group of freedoms: at least the `wanted` lowest, none left out below the last."""
+    size, more = k.shape[0], wanted + _SPARE
+    if size > DENSE and more < size // 4:
+        values, shapes = lowest(csc_array(k), csc_array(m), more)
+        # Counted where two modes are farthest apart: there round-off cannot put one on the wrong side.
+        last = wanted + int(np.argmax(values[wanted:] / values[wanted - 1 : -1]))
+        if count_below(k, m, float(np.sqrt(values[last - 1] * values[last]))) == last:
+            return values[:last], shapes[:, :last]
+    return eigh(k.toarray(), m.toarray())
+
+
+def _names(energies: dict[str, np.ndarray]) -> tuple[str, ...]:
+    """Name modes by their kinetic energy, see `BeamModes`."""
+    shares = np.array([energies[name] for name in FIELDS])
+    names, seen = [], {}
+    for winner, axial in zip(np.argmax(shares, axis=0), energies["axial"], strict=True):
+        label = "axial-bending" if MIXED[0] <= axial <= MIXED[1] else _LABELS[FIELDS[winner]]
+        seen[label] = seen.get(label, 0) + 1
+        names.append(f"{label} {seen[label]}")
+    return tuple(names)
+
+
+def _signed(vectors: np.ndarray) -> np.ndarray:
+    """Fix the sign, which an eigensolver leaves open: the first sizeable entry is positive."""
+    large = np.abs(vectors) > 0.3 * np.abs(vectors).max(axis=0)
+    first = vectors[np.argmax(large, axis=0), np.arange(vectors.shape[1])]
+    return vectors * np.sign(first)

@@ -1,0 +1,400 @@
+"""The command ``railbridge``: case files in, results out.
+
+Exit codes: 0 all is well; 1 the computer failed (disk, memory); 2 the case file or a path is wrong, with one line that names
+the key; 3 the iteration did not converge, results written all the same; 130 interrupted, nothing half-written.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import shutil
+import sys
+import tempfile
+import time
+import tomllib
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..crossing import Crossing, NotConvergedError
+from ..errors import InputError
+from . import copies as lessons
+from . import shelf
+from .definition import Case, case
+from .summary import histories, refuse_too_large, summarize, to_json
+
+__all__ = ["main"]
+
+FILES = ("points.csv", "wheels.csv", "reactions.csv", "iterations.csv", "summary.json")
+KINDS = ("vehicles", "decks", "cases")
+
+DESCRIPTION = """\
+What a train does to a railway bridge: case files in, results out.
+
+A case file is TOML with five tables: [deck], [train], [track], [run] and [output]; all numbers are SI (m, kg, s, N).
+"""
+EXAMPLES = """\
+examples:
+  railbridge new case.toml                   write a commented case file that runs as it is; change it
+  railbridge check case.toml                 only say whether it can be run, and how large the run is
+  railbridge run case.toml --out results     run it; results/summary.json has the numbers
+  railbridge run paper --out paper           run a shipped case by its name
+  railbridge run case.toml --out fast --set run.speed=30 --set train.cars=4
+  railbridge list                            vehicles, decks and cases that are shipped
+  railbridge copy-notebooks my-course        the lessons as copies of your own; again later, it renews those not edited
+  railbridge schema > case.schema.json       for editors that complete and check TOML files
+
+results (in the folder of --out; files of these names in it are replaced):
+  summary.json     extremes with time and place, static values, dynamic factors, envelope, reactions, wheels, car bodies
+  points.csv       displacement, acceleration and section forces at output.points
+  wheels.csv       lateral and vertical force of every wheel on the deck
+  reactions.csv    forces of every bearing line on the deck
+  iterations.csv   displacement of the first point after every iteration
+  The first column of every CSV file is t, in s; the names of the others end with their unit.
+
+exit codes:
+  0 done    1 out of memory or disk    2 bad case file or path    3 not converged (results are written)    130 interrupted
+"""
+STARTER = """\
+# A railbridge case: one train crosses one deck at one speed. All numbers are SI: m, kg, s, N.
+#
+#   railbridge run {name} --out results
+#
+# Lines that start with # are choices left out; take the mark away to use them. For an editor that completes this file:
+# railbridge schema > case.schema.json, and as the first line of this file  #:schema ./case.schema.json
+
+[deck]
+# A deck of your own, simply supported at its ends; or  file = "viaduct36"  for a shipped deck (railbridge list decks),
+# or  file = "my_deck.toml"  for a file beside this one.
+length = 20.0                           # m; or  spans = [20.0, 25.0, 20.0]  for a continuous deck
+bending_stiffness_vertical = 2.0e10     # E I about the lateral axis, N m2
+mass = 9000.0                           # kg/m
+# For lateral bending and twist; without them the deck is rigid in that way, and those results are null.
+# bending_stiffness_lateral = 1.5e11    # N m2
+# torsional_stiffness = 3.0e10          # G J, N m2; needs polar_inertia
+# polar_inertia = 50e3                  # kg m2 per m
+damping = {{ modal = 0.01 }}              # share of critical; or  {{ ratio = 0.03, frequencies_hz = [3.3, 16.3] }}  (Rayleigh)
+modes = 8                               # the lowest that loads can excite
+# tracks = {{ left = 2.0, right = -2.0 }}  # names for train.track, m left of the axis
+
+[train]
+vehicle = "xia2000"                     # a shipped vehicle (railbridge list vehicles), or a file beside this one
+cars = 2                                # or a mixed train: cars = ["power", {{ vehicle = "coach", count = 6 }}, "power"]
+# car_spacing = 22.5                    # m between the middles of cars; default: the vehicles' lengths
+# track = 0.0                           # m left of the deck axis
+# Or bare axle loads instead of vehicles:
+# axles = [0.0, 3.0, 11.0, 14.0]        # m behind the first axle
+# loads = [200e3, 200e3, 200e3, 200e3]  # N, down positive
+
+[track]                                 # irregularity of the rails; leave [track] out for perfect ones
+vertical = {{ kind = "harmonic", amplitude = 1e-3, wavelength = 10.0 }}
+# lateral = {{ kind = "harmonic", amplitude = 1e-3, wavelength = 10.0, phase = 1.5708 }}
+# Several on top of each other:  vertical = [{{ ... }}, {{ ... }}]
+# Each rail its own:  vertical = {{ left = {{ ... }}, right = {{ ... }} }}
+# Measured:  vertical = {{ kind = "table", x = [0.0, 5.0, 10.0], r = [0.0, 2e-3, 0.0] }}    # m, up positive
+
+[run]
+speed = 40.0                            # m/s; 144 km/h
+# time_step = 1e-3                      # s; chosen if left out
+# loads = "wheels"                      # how wheel forces act on the deck: wheels, bogies (one force each) or condensed (a car)
+# interaction = "iterate"               # or "rigid" (forces of a rigid deck), or "direct" (solved together, slower)
+# tolerance = 1e-8                      # the iteration stops when forces change by less than this twice in a row
+# max_iterations = 50
+# relaxation = 0.5                      # or "aitken"; for light decks and fast trains that do not converge
+# lead_in = 300.0                       # m of irregular track before the deck; default 7.5 s of travel
+# tail = 1.0                            # s after the last axle has left
+
+[output]
+points = [10.0]                         # m along the deck
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command and return its exit code."""
+    given = _parser().parse_args(arguments)
+    try:
+        with np.errstate(all="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("once")
+            warnings.simplefilter("ignore", RuntimeWarning)
+            warnings.showwarning = lambda message, *_, **__: _say(f"warning: {message}")
+            return given.command(given)
+    except InputError as error:
+        _say(str(error))
+        return 2
+    except KeyboardInterrupt:
+        _say("interrupted; nothing was written")
+        return 130
+    except BrokenPipeError:
+        return 1
+    except MemoryError:
+        _say("out of memory: use a larger run.time_step, fewer cars, or a shorter run.lead_in or run.tail")
+        return 1
+    except OSError as error:
+        _say(f"{error.filename or 'the output'}: {error.strerror or error}")
+        return 1
+
+
+def _say(line: str) -> None:
+    print("railbridge: " + " ".join(line.split()), file=sys.stderr)
+
+
+def _parser() -> argparse.ArgumentParser:
+    def add(name: str, command, about: str, **options: Any) -> argparse.ArgumentParser:
+        made = commands.add_parser(name, help=about, description=about[0].upper() + about[1:] + ".", **options)
+        made.set_defaults(command=command)
+        return made
+
+    raw = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser("railbridge", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=raw)
+    commands = parser.add_subparsers(required=True, metavar="command")
+    changes = argparse.ArgumentParser(add_help=False)
+    changes.add_argument("case", help="a case file (.toml), or the name of a shipped case")
+    changes.add_argument(
+        "--set", metavar="KEY=VALUE", action="append", default=[], help="change a key, as in run.speed=30; may be repeated"
+    )
+    run = add("run", _run, "run a case and write its results", parents=[changes], epilog=EXAMPLES, formatter_class=raw)
+    run.add_argument("--out", metavar="DIR", required=True, help="folder for the results; made if it does not exist")
+    run.add_argument("--no-histories", action="store_true", help="write summary.json only")
+    run.add_argument("-q", "--quiet", action="store_true", help="no progress, no line at the end; errors only")
+    add("check", _check, "say whether a case can be run, and how large the run is", parents=[changes])
+    new = add("new", _new, "write a commented case file that runs as it is")
+    new.add_argument("file", help="file to write; one that exists is left alone")
+    listing = add("list", _list, "list shipped vehicles, decks and cases")
+    listing.add_argument("kind", nargs="?", choices=KINDS, help="all three if left out")
+    copying = add(
+        "copy-notebooks", _copy_notebooks, "copy the notebooks, and the data files they lead to, into a folder of your own"
+    )
+    copying.add_argument("folder", metavar="DIR", help="made if it does not exist; copies that were edited or run are left alone")
+    copying.add_argument("--force", action="store_true", help="replace edited copies too; yours is kept beside as NAME.edited-1")
+    add("schema", _schema, "print the JSON schema of case files, for editors that complete and check them")
+    return parser
+
+
+def _case(given: argparse.Namespace) -> Case:
+    changes = {}
+    for change in given.set:
+        key, mark, value = change.partition("=")
+        if not mark or not key.strip():
+            raise InputError("--set", change, "must be KEY=VALUE", "For instance --set run.speed=30")
+        try:
+            changes[key.strip()] = tomllib.loads(f"value = {value}")["value"]
+        except (ValueError, RecursionError):
+            changes[key.strip()] = value.strip()  # a text without its quotes
+    loaded = case(given.case)
+    return loaded.replace(changes) if changes else loaded
+
+
+def _run(given: argparse.Namespace) -> int:
+    loaded = _case(given)
+    refuse_too_large(loaded.train, loaded.deck, loaded.settings, len(loaded.points))
+    progress = _Progress(given.quiet)
+    with _results(given.out) as folder:
+        code = 0
+        try:
+            run = loaded.run(progress)
+        except NotConvergedError as error:
+            run, code, message = error.run, 3, str(error)
+        _write(folder, loaded, run, progress, not given.no_histories)
+    progress.end()
+    if code:
+        _say(f"{message} What there is was written to {given.out}.")
+    elif not given.quiet:
+        _say(f"{_headline(loaded, run)}; written to {given.out}")
+    return code
+
+
+def _headline(loaded: Case, run: Crossing) -> str:
+    solved = f"converged in {run.iterations} iterations" if run.converged else f"solved ({run.settings.interaction})"
+    x = loaded.points[0]
+    value, _ = run.displacement(x).extreme("displacement_z")
+    return f"{solved}, displacement at x = {x:g} m is {value * 1e3:.4g} mm"
+
+
+def _write(folder: Path, loaded: Case, run: Crossing, progress: _Progress, with_histories: bool) -> None:
+    if with_histories:
+        for table in histories(run, loaded.points):
+            done = 0
+            with (folder / f"{table.name}.csv").open("w", encoding="utf-8", newline="") as file:
+                for rows in table.rows():
+                    file.write(rows)
+                    done += 1
+                    progress(f"writing {table.name}.csv, {done} 000 rows")
+    progress("writing summary.json")
+    (folder / "summary.json").write_text(to_json(summarize(run, loaded.points)), encoding="utf-8")
+
+
+def _check(given: argparse.Namespace) -> int:
+    loaded = _case(given)
+    needed = refuse_too_large(loaded.train, loaded.deck, loaded.settings, len(loaded.points))
+    s = loaded.settings
+    seconds = (loaded.deck.length + loaded.train.length) / s.speed + s.tail
+    wheels = len(loaded.train.wheels)
+    print(f"{given.case}: can be run; {wheels} wheels, {seconds:.3g} s in steps of {s.time_step:.3g} s, {needed / 1e9:.2g} GB")
+    return 0
+
+
+def _new(given: argparse.Namespace) -> int:
+    path = Path(given.file)
+    if path.suffix != ".toml":
+        raise InputError("file", given.file, "must end in .toml")
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(STARTER.format(name=path.name))
+    except FileExistsError:
+        raise InputError("file", given.file, "exists already and is left alone", "Choose another name") from None
+    except (OSError, ValueError) as error:
+        raise InputError("file", given.file, f"cannot be written ({_reason(error)})") from None
+    print(f"{given.file} written; run it with: railbridge run {given.file} --out results")
+    return 0
+
+
+def _list(given: argparse.Namespace) -> int:
+    for kind in [given.kind] if given.kind else KINDS:
+        print(kind)
+        for name in shelf.data_names(kind):
+            print(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
+    return 0
+
+
+def _about(path: Path) -> str:
+    """Return the first line of comment in a data file, or what the file is."""
+    first = path.read_text(encoding="utf-8").partition("\n")[0]
+    return first.lstrip("# ").strip() if first.startswith("#") else "a two-bogie car, 15 freedoms" * (path.suffix == ".csv")
+
+
+def _schema(given: argparse.Namespace) -> int:
+    print((shelf.data_root() / "case.schema.json").read_text(encoding="utf-8"), end="")
+    return 0
+
+
+def _copy_notebooks(given: argparse.Namespace) -> int:
+    folder = Path(given.folder)
+    with _staging(given.folder, "DIR") as (scratch, existed):
+        copies = lessons.plan(folder, given.force)
+        lessons.stage(copies, folder, scratch)
+        if existed:
+            lessons.place(copies, folder, scratch)
+        else:
+            scratch.replace(folder)
+    for copy in copies:
+        if copy.action in ("updated", "kept", "replaced"):
+            print(f"{copy.action:10}{copy.name}" + f"  (yours is now {copy.backup})" * bool(copy.backup))
+    count = {a: sum(c.action == a for c in copies) for a in ("copied", "updated", "replaced", "unchanged", "kept")}
+    print(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
+    if count["kept"]:
+        print("kept: changed since they were copied; --force replaces them and keeps yours beside under another name")
+    print(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
+    return 0
+
+
+def _reason(error: Exception) -> str:
+    return getattr(error, "strerror", None) or str(error)
+
+
+@contextmanager
+def _results(out: str) -> Iterator[Path]:
+    """Give a temporary folder beside the results; what is in it becomes the results only if all went well."""
+    folder = Path(out)
+    with _staging(out, "--out") as (scratch, existed):
+        yield scratch
+        if existed:
+            # summary.json goes first and comes last: where it stands, the files beside it belong to it.
+            (folder / "summary.json").unlink(missing_ok=True)
+            for name in FILES:
+                if (scratch / name).exists():
+                    (scratch / name).replace(folder / name)
+                else:
+                    (folder / name).unlink(missing_ok=True)
+        else:
+            scratch.replace(folder)
+
+
+@contextmanager
+def _staging(out: str, field: str) -> Iterator[tuple[Path, bool]]:
+    """Give a temporary folder in or beside the one that is asked for, and whether that one exists; nothing is left of it after.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be written to; raised before anything is computed.
+    """
+    folder, made = Path(out), []
+    try:
+        if not out.strip():
+            raise InputError(field, out, "must name a folder")
+        existed = folder.is_dir()
+        if not existed and (folder.exists() or folder.is_symlink()):
+            raise InputError(field, out, "is a file, not a folder", "Choose another name")
+        for parent in [p for p in reversed(folder.absolute().parents) if not p.exists()]:
+            parent.mkdir()
+            made.append(parent)
+        if not existed:
+            folder.mkdir()  # only to see that it can be made
+            folder.rmdir()
+        # In a folder that exists already the temporary one goes inside: it may be a file system of its own.
+        scratch = Path(tempfile.mkdtemp(prefix=".railbridge-", dir=folder if existed else folder.absolute().parent))
+    except (OSError, ValueError) as error:
+        _remove(made)
+        if isinstance(error, InputError):
+            raise
+        raise InputError(field, out, f"cannot be written to ({_reason(error)})", "Choose another folder") from None
+    try:
+        scratch.chmod(0o777 & ~_umask())
+        yield scratch, existed
+    except BaseException:
+        shutil.rmtree(scratch, ignore_errors=True)
+        _remove(made)
+        raise
+    shutil.rmtree(scratch, ignore_errors=True)
+
+
+def _remove(made: list[Path]) -> None:
+    """Remove empty folders again, the innermost first."""
+    for parent in reversed(made):
+        try:
+            parent.rmdir()
+        except OSError:
+            return
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+class _Progress:
+    """One line on stderr that tells how far a long run is: overwritten in a terminal, once in ten seconds elsewhere."""
+
+    def __init__(self, quiet: bool) -> None:
+        self.quiet = quiet
+        self.start = self.last = time.monotonic()
+        self.shown = 0
+
+    def __call__(self, text: str) -> None:
+        now, terminal = time.monotonic(), sys.stderr.isatty()
+        if self.quiet or now - self.last < (0.2 if terminal else 10.0) or now - self.start < 1.0:
+            return
+        self.last = now
+        line = f"railbridge: {text}, {now - self.start:.0f} s"
+        if terminal:
+            print("\r" + line.ljust(self.shown), end="", file=sys.stderr, flush=True)
+            self.shown = len(line)
+        else:
+            print(line, file=sys.stderr, flush=True)
+
+    def end(self) -> None:
+        """Clear the line."""
+        if self.shown:
+            print("\r" + " " * self.shown + "\r", end="", file=sys.stderr, flush=True)
+            self.shown = 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,134 @@
+"""The shelf of data files: found by shipped name or by path, and read."""
+
+from __future__ import annotations
+
+import csv
+import os
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError, did_you_mean
+from ..units import quantity
+
+__all__ = ["data_file", "data_names", "data_root", "read_parameters", "read_toml"]
+
+
+def data_root() -> Path:
+    """Return the folder of shipped data: that of RAILBRIDGE_DATA if set, inside an installed wheel, or of the checkout."""
+    if os.environ.get("RAILBRIDGE_DATA"):
+        return Path(os.environ["RAILBRIDGE_DATA"])
+    packaged = Path(__file__).parents[1] / "data"
+    return packaged if packaged.is_dir() else Path(__file__).parents[3] / "data"
+
+
+def data_names(kind: str, *suffixes: str) -> list[str]:
+    """Return the names of the shipped data files of a kind (``vehicles``, ``decks``, ``cases``), of any suffix if none given."""
+    return sorted({p.stem for p in (data_root() / kind).glob("*.*") if p.suffix in (suffixes or (".csv", ".toml"))})
+
+
+def data_file(kind: str, name: str | Path) -> Path:
+    """Find a data file by shipped name or by path.
+
+    Parameters
+    ----------
+    kind : {"vehicles", "decks", "cases"}
+        Folder of ``data``.
+    name : str or Path
+        A shipped name (``xia2000``), or the path of a ``.csv`` or ``.toml`` file.
+
+    Raises
+    ------
+    InputError
+        Unknown name (the nearest is suggested), missing file, other file type, or the same name as both CSV and TOML.
+    """
+    field = kind.removesuffix("s")
+    if not isinstance(name, (str, Path)) or not str(name).strip():
+        raise InputError(field, name, "must be a name or a path", "Shipped: " + ", ".join(data_names(kind)))
+    path = Path(name)
+    if path.suffix in (".csv", ".toml") or len(path.parts) > 1:
+        if path.suffix not in (".csv", ".toml"):
+            raise InputError(field, str(name), "file must end in .csv or .toml")
+        if not _is_file(path):
+            raise InputError(field, str(name), "no such file", f"Looked in {path.parent.resolve().name or 'the root'}")
+        return path
+    found = [data_root() / kind / f"{name}{s}" for s in (".csv", ".toml") if name in data_names(kind, s)]
+    if len(found) > 1:
+        raise InputError(field, str(name), "exists as both CSV and TOML", "Remove one, or give the file's path")
+    if not found:
+        raise InputError(field, str(name), f"no such {field}", did_you_mean(str(name), data_names(kind)))
+    return found[0]
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # a name too long for the file system
+        return False
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Read a TOML file; refuse what is not TOML, naming the file."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (ValueError, RecursionError, OSError) as error:
+        raise InputError(path.name, None, f"is not a valid TOML file ({error})") from None
+
+
+def read_parameters(path: Path, expected: Mapping[str, str]) -> dict[str, float]:
+    """Read a parameter table (columns symbol, name, value, unit, source, note) into SI values.
+
+    Parameters
+    ----------
+    path : Path
+        A CSV file, UTF-8, comma separated.
+    expected : mapping
+        Names that must be there, each with its SI unit. Nothing else may be there.
+
+    Returns
+    -------
+    dict
+        Value in SI by name.
+
+    Raises
+    ------
+    InputError
+        Missing, unknown or duplicated column or row, wrong unit, or a value that is not a finite number.
+    """
+    columns = ["symbol", "name", "value", "unit", "source", "note"]
+    where = path.name
+    try:
+        rows = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
+    except (UnicodeDecodeError, csv.Error, OSError) as error:
+        raise InputError(where, None, f"is not a readable CSV file ({error})", "Save it as UTF-8 text") from None
+    rows = [r for r in rows if r and any(cell.strip() for cell in r)]
+    header = [h.strip() for h in rows[0]] if rows else []
+    for column in header:
+        if header.count(column) > 1:
+            raise InputError(f"{where}: column {column}", None, "appears more than once")
+        if column not in columns:
+            raise InputError(f"{where}: column {column}", None, "unknown column", did_you_mean(column, columns))
+    for column in columns:
+        if column not in header:
+            raise InputError(f"{where}: column {column}", None, "is missing", "Columns: " + ",".join(columns))
+    result: dict[str, float] = {}
+    for line, row in enumerate(rows[1:], start=2):
+        if len(row) != len(header):
+            raise InputError(
+                f"{where}: row {line}",
+                ",".join(row),
+                f"must have {len(header)} cells, it has {len(row)}",
+                "Put cells that contain a comma between double quotes",
+            )
+        cells = dict(zip(header, (c.strip() for c in row), strict=True))
+        name = cells["name"]
+        if name not in expected:
+            raise InputError(f"{where}: row {name}", None, "unknown parameter", did_you_mean(name, expected))
+        if name in result:
+            raise InputError(f"{where}: row {name}", None, "appears more than once")
+        result[name] = quantity(f"{where}: {name}", cells["value"], cells["unit"], expected[name])
+    missing = [name for name in expected if name not in result]
+    if missing:
+        raise InputError(f"{where}: row {missing[0]}", None, "is missing", "Rows missing: " + ", ".join(missing))
+    return result

@@ -1,0 +1,325 @@
+r"""Irregularities of rail and wheel: value and slope.
+
+x is the distance from the bridge entrance, forward; r > 0 raises the wheel, or moves it left. Every irregularity knows its
+slope dr/dx in closed form, because the wheel force needs ``k r + c V dr/dx``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from . import errors
+from .errors import InputError
+
+__all__ = ["FadeIn", "Harmonic", "Irregularity", "Level", "Notch", "Rails", "Table", "Track"]
+
+
+class Irregularity(Protocol):
+    """What every irregularity offers."""
+
+    def value(self, x: np.ndarray) -> np.ndarray:
+        """Return r, m, at x, m."""
+
+    def slope(self, x: np.ndarray) -> np.ndarray:
+        """Return dr/dx, dimensionless, at x, m."""
+
+    @property
+    def shortest(self) -> float:
+        """Shortest length, m, that the time step has to resolve; infinite if none."""
+
+
+@dataclass(frozen=True)
+class Level:
+    """A perfect rail."""
+
+    shortest: float = field(default=np.inf, init=False)
+
+    def value(self, x: np.ndarray) -> np.ndarray:
+        """Return zeros."""
+        return np.zeros_like(x, dtype=float)
+
+    def slope(self, x: np.ndarray) -> np.ndarray:
+        """Return zeros."""
+        return np.zeros_like(x, dtype=float)
+
+
+@dataclass(frozen=True)
+class Harmonic:
+    """``r(x) = A sin(2 pi x / lambda + phi)`` (Eq. 1).
+
+    Attributes
+    ----------
+    amplitude : float
+        A, m, not negative.
+    wavelength : float, optional
+        lambda, m. Or give `length` and `half_waves`.
+    phase : float
+        phi, rad.
+    length, half_waves : float, optional
+        l (m) and n of Eq. 1: lambda = 2 l / n.
+    """
+
+    amplitude: float
+    wavelength: float | None = None
+    phase: float = 0.0
+    length: float | None = None
+    half_waves: float | None = None
+
+    def __post_init__(self) -> None:
+        errors.number("amplitude", self.amplitude, least=0.0, unit="m", remedy="Shift the phase by pi to change the sign")
+        errors.number("phase", self.phase, unit="rad")
+        pair = self.length is not None, self.half_waves is not None
+        if (self.wavelength is None) != all(pair) or (self.wavelength is not None and any(pair)):
+            raise InputError("wavelength", self.wavelength, "give either wavelength, or length and half_waves, not both")
+        if self.wavelength is None:
+            length = errors.number("length", self.length, above=0.0, unit="m")
+            half_waves = errors.number("half_waves", self.half_waves, above=0.0)
+            object.__setattr__(self, "wavelength", 2.0 * length / half_waves)
+        errors.number("wavelength", self.wavelength, above=0.0, unit="m")
+
+    @property
+    def shortest(self) -> float:
+        """One wavelength, m."""
+        return self.wavelength if self.amplitude else np.inf
+
+    def value(self, x: np.ndarray) -> np.ndarray:
+        """Return r, m."""
+        return self.amplitude * np.sin(2 * np.pi * x / self.wavelength + self.phase)
+
+    def slope(self, x: np.ndarray) -> np.ndarray:
+        """Return dr/dx."""
+        k = 2 * np.pi / self.wavelength
+        return self.amplitude * k * np.cos(k * x + self.phase)
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """A measured irregularity: linear between its points, level beyond its ends at their value.
+
+    Attributes
+    ----------
+    x, r : array_like, shape (n,)
+        m; x ascending, at least two points.
+    """
+
+    x: np.ndarray
+    r: np.ndarray
+
+    def __post_init__(self) -> None:
+        x = errors.numbers("x", self.x, unit="m")
+        r = errors.numbers("r", self.r, count=len(x), unit="m")
+        if len(x) < 2 or np.any(np.diff(x) <= 0):
+            raise InputError("x", self.x, "must ascend and hold at least two points", "Sort it and remove doubles")
+        object.__setattr__(self, "x", errors.frozen(x))
+        object.__setattr__(self, "r", errors.frozen(r))
+
+    @property
+    def shortest(self) -> float:
+        """Ten times the closest spacing, m, so that every point of the table is met."""
+        return 10.0 * float(np.min(np.diff(self.x)))
+
+    def value(self, x: np.ndarray) -> np.ndarray:
+        """Return r, m."""
+        return np.interp(x, self.x, self.r)
+
+    def slope(self, x: np.ndarray) -> np.ndarray:
+        """Return dr/dx: constant between points, zero beyond the ends."""
+        slopes = np.concatenate([[0.0], np.diff(self.r) / np.diff(self.x), [0.0]])
+        return slopes[np.searchsorted(self.x, x, side="right")]
+
+
+@dataclass(frozen=True)
+class Sum:
+    """Several irregularities on top of each other."""
+
+    parts: tuple[Irregularity, ...]
+
+    @property
+    def shortest(self) -> float:
+        """Shortest of the parts, m."""
+        return min(p.shortest for p in self.parts)
+
+    def value(self, x: np.ndarray) -> np.ndarray:
+        """Return r, m."""
+        return sum(p.value(x) for p in self.parts)
+
+    def slope(self, x: np.ndarray) -> np.ndarray:
+        """Return dr/dx."""
+        return sum(p.slope(x) for p in self.parts)
+
+
+@dataclass(frozen=True)
+class Rails:
+    """Different irregularities of the left and the right rail."""
+
+    left: Irregularity | list | tuple | None = None
+    right: Irregularity | list | tuple | None = None
+
+
+@dataclass(frozen=True)
+class Track:
+    """The irregularities of a track.
+
+    Attributes
+    ----------
+    vertical, lateral : Irregularity, list of them (summed), Rails, or None (level)
+
+    Raises
+    ------
+    InputError
+        Anything else.
+    """
+
+    vertical: Irregularity | list | tuple | Rails | None = None
+    lateral: Irregularity | list | tuple | Rails | None = None
+
+    def __post_init__(self) -> None:
+        _ = self._rails  # refuses what is no irregularity
+
+    def rail(self, direction: str, side: str) -> Irregularity:
+        """Return one rail's irregularity.
+
+        Parameters
+        ----------
+        direction : {"vertical", "lateral"}
+        side : {"left", "right"}
+        """
+        return self._rails[direction, side]
+
+    @cached_property
+    def _rails(self) -> dict[tuple[str, str], Irregularity]:
+        """Each rail once: the same object on both sides where the sides do not differ."""
+        result = {}
+        for direction in ("vertical", "lateral"):
+            given = getattr(self, direction)
+            sides = (given.left, given.right) if isinstance(given, Rails) else (given,)
+            rails = [_combine(f"track.{direction}", g) for g in sides]
+            result[direction, "left"], result[direction, "right"] = rails[0], rails[-1]
+        return result
+
+    @property
+    def shortest(self) -> float:
+        """Shortest length in the track, m."""
+        return min(self.rail(d, s).shortest for d in ("vertical", "lateral") for s in ("left", "right"))
+
+
+def _combine(name: str, given: Irregularity | list | tuple | None) -> Irregularity:
+    if given is None:
+        return Level()
+    if isinstance(given, (list, tuple)):
+        return Sum(tuple(_combine(name, g) for g in given)) if given else Level()
+    if not (hasattr(given, "value") and hasattr(given, "slope") and hasattr(given, "shortest")):
+        raise InputError(name, given, "must be an irregularity (value and slope), a list of them, Rails, or None")
+    return given
+
+
+@dataclass(frozen=True)
+class Notch:
+    """A flat spot that meets the rail once a turn (Eq. 2): ``r = -(a/2) (1 - cos(2 pi (x - k A - B) / b))``.
+
+    Attributes
+    ----------
+    wheels : tuple of (car, wheel)
+        Which wheels carry it, numbered from 1.
+    circumference : float
+        A, m.
+    offset : float
+        B, m: where this wheel's notch first meets the rail, from the bridge entrance.
+    depth : float
+        a, m.
+    length : float
+        b, m; not longer than the circumference.
+    before_entrance : bool
+        Whether the turns before B (k < 0) count too. Eq. 2 starts at k = 0.
+
+    Notes
+    -----
+    x is the wheel's own position. A notch lowers the wheel. Wrong when the wheel cannot follow: without wheel mass and with
+    permanent contact, the force is nearly all primary damper.
+    """
+
+    wheels: tuple[tuple[int, int], ...]
+    circumference: float
+    offset: float
+    depth: float
+    length: float
+    before_entrance: bool = False
+
+    def __post_init__(self) -> None:
+        errors.number("circumference", self.circumference, above=0.0, unit="m")
+        errors.number("offset", self.offset, unit="m")
+        errors.number("depth", self.depth, least=0.0, unit="m")
+        errors.number("length", self.length, above=0.0, most=self.circumference, unit="m")
+        errors.boolean("before_entrance", self.before_entrance)
+        pairs = self.wheels if isinstance(self.wheels, (list, tuple)) else ()
+        if not pairs or not all(isinstance(pair, (list, tuple)) and len(pair) == 2 for pair in pairs):
+            raise InputError("wheels", self.wheels, "must list pairs [car, wheel], numbered from 1")
+        wheels = tuple(tuple(errors.integer("wheels", n, least=1) for n in pair) for pair in pairs)
+        object.__setattr__(self, "wheels", wheels)
+
+    @property
+    def shortest(self) -> float:
+        """Length of the notch, m."""
+        return self.length if self.depth else np.inf
+
+    def _phase(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        along = np.asarray(x, dtype=float) - self.offset
+        within = np.mod(along, self.circumference)
+        inside = within <= self.length
+        return inside & (along >= 0.0) if not self.before_entrance else inside, 2 * np.pi * within / self.length
+
+    def value(self, x: np.ndarray) -> np.ndarray:
+        """Return r, m."""
+        inside, phase = self._phase(x)
+        return np.where(inside, -0.5 * self.depth * (1.0 - np.cos(phase)), 0.0)
+
+    def slope(self, x: np.ndarray) -> np.ndarray:
+        """Return dr/dx."""
+        inside, phase = self._phase(x)
+        return np.where(inside, -np.pi * self.depth / self.length * np.sin(phase), 0.0)
+
+
+@dataclass(frozen=True)
+class FadeIn:
+    """The run-up: ``r`` is zero before ``-lead_in``, grows with a half-cosine over half the lead-in, then is untouched.
+
+    A function of position, so every car has the same run-up. ``lead_in = 0`` means level track before the deck.
+
+    Attributes
+    ----------
+    inner : Irregularity
+    lead_in : float
+        m.
+    """
+
+    inner: Irregularity
+    lead_in: float
+
+    @property
+    def shortest(self) -> float:
+        """Shortest length of the irregularity itself, m."""
+        return self.inner.shortest
+
+    def _factor(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        if self.lead_in == 0.0:
+            return np.where(x >= -1e-9, 1.0, 0.0), np.zeros_like(x)
+        ramp = self.lead_in / 2
+        factor, rate = (x > -ramp).astype(float), np.zeros_like(x)
+        fading = (x > -self.lead_in) & (x <= -ramp)
+        angle = np.pi * (x[fading] + self.lead_in) / ramp
+        factor[fading] = 0.5 - 0.5 * np.cos(angle)
+        rate[fading] = 0.5 * np.pi / ramp * np.sin(angle)
+        return factor, rate
+
+    def value(self, x: np.ndarray) -> np.ndarray:
+        """Return r, m."""
+        return self._factor(x)[0] * self.inner.value(x)
+
+    def slope(self, x: np.ndarray) -> np.ndarray:
+        """Return dr/dx, the fade's own slope included."""
+        factor, rate = self._factor(x)
+        return factor * self.inner.slope(x) + rate * self.inner.value(x)

@@ -1,0 +1,202 @@
+"""Boxes: section by hand, the beam, what is refused, and deck files."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from box_tables import PLAIN, box
+
+import railbridge as rb
+from railbridge.boxes.girder import Pads
+from railbridge.cases.objects import box_from_table
+from railbridge.errors import InputError
+
+
+@pytest.fixture(scope="module")
+def plain():
+    return box()
+
+
+def parts(rectangles):
+    """Area, height of the centroid, I_y and I_z of rectangles (width, height, middle y, middle z), by Steiner."""
+    a = np.array([w * h for w, h, _, _ in rectangles])
+    y, z = np.array([(y, z) for *_, y, z in rectangles]).T
+    centroid = a @ z / a.sum()
+    own_y = sum(w * h**3 / 12 for w, h, *_ in rectangles)
+    own_z = sum(h * w**3 / 12 for w, h, *_ in rectangles)
+    return a.sum(), centroid, own_y + a @ (z - centroid) ** 2, own_z + a @ y**2
+
+
+def thin_walled_shear_area():
+    """I^2 / sum of int S^2 / t ds over one half of the box, whose flow is zero in the planes of symmetry and at the edge.
+
+    Level plates give way between the faces of the webs only.
+    """
+    zs, zb = 1.875, 0.1
+    lengths, heights, t = np.array([2.3, 2.5, 2.5, 1.775]), np.array([zs, zs, zb, 0.9875]), np.array([0.25, 0.25, 0.2, 0.35])
+    area = lengths * t
+    centre = area @ heights / area.sum()
+    inertia = 2 * (area @ (heights - centre) ** 2 + 0.35 * 1.775**3 / 12)
+
+    def flow_squared(length, height, thickness):
+        # S grows evenly along a level plate that starts without flow.
+        return thickness * (height - centre) ** 2 * length**3 / 3
+
+    total = sum(flow_squared(*p) for p in ((2.125, zs, 0.25), (2.325, zs, 0.25), (2.325, zb, 0.2)))
+    z, step = np.linspace(zs, zb, 2001, retstep=True)
+    start = 0.25 * (zs - centre) * (2.3 + 2.5)
+    flow = start + 0.35 * np.concatenate([[0.0], np.cumsum(((z[1:] + z[:-1]) / 2 - centre) * -step)])
+    total += np.sum(flow**2) * -step / 0.35
+    return inertia**2 / (2 * total)
+
+
+def test_section_by_hand(plain):
+    """Four rectangles; J by Bredt's formula on the middle lines and the cantilevers' own b t^3 / 3."""
+    area, centroid, i_y, i_z = parts(
+        [(9.6, 0.25, 0, 1.875), (5.35, 0.2, 0, 0.1), (0.35, 1.55, 2.5, 0.975), (0.35, 1.55, -2.5, 0.975)]
+    )
+    s = plain.section
+    assert s.area == pytest.approx(area, rel=1e-9)
+    assert s.centroid == pytest.approx((0.0, centroid), abs=1e-9)
+    assert s.second_moment_vertical == pytest.approx(i_y, rel=1e-9)
+    assert s.second_moment_lateral == pytest.approx(i_z, rel=1e-9)
+    height = 2.0 - 0.125 - 0.1
+    bredt = 4 * (5.0 * height) ** 2 / (5.0 / 0.25 + 5.0 / 0.2 + 2 * height / 0.35) + 2 * 2.125 * 0.25**3 / 3
+    assert bredt < s.torsion_constant < 1.06 * bredt
+    assert s.shear_area_vertical == pytest.approx(thin_walled_shear_area(), rel=0.005)
+    assert 0.0 < s.shear_centre[1] < 2.0 and s.shear_centre[0] == pytest.approx(0.0, abs=1e-3)
+    assert plain.concrete_mass == pytest.approx(2500 * area)
+
+
+def test_leaning_webs_and_haunches_have_the_drawn_area():
+    """The section's area, by the library, is that of the outline by the shoelace formula, and of the parts by hand."""
+    b = box(bottom_spacing=4.0, root_thickness=0.45, edge_thickness=0.18, haunch_length=1.0)
+    assert b.section.area == pytest.approx(b.concrete_mass / 2500, rel=1e-9)
+    # Slab in the middle, cantilevers and haunches as trapezia between the webs' middle planes; webs; bottom.
+    slab = 3.0 * 0.25 + 2 * 1.0 * 0.35 + 2 * 2.3 * (0.45 + 0.18) / 2
+    lean = 0.5 / (2.0 - 0.225 - 0.1)
+    webs = 2 * 0.35 * np.hypot(1, lean) * (2.0 - 0.45 - 0.2)
+    bottom = 0.2 * (4.0 + 0.35 * np.hypot(1, lean))
+    assert b.section.area == pytest.approx(slab + webs + bottom, rel=0.01)
+
+
+def test_bearings_stand_where_the_pads_are(plain):
+    found = {(b.x, round(b.y, 9)) for b in plain.beam().bearings}
+    assert found == {(0.0, 2.5), (0.0, -2.5), (0.0, 0.0), (36.0, 2.5), (36.0, -2.5)}
+    assert {round(b.z, 9) for b in plain.beam().bearings} == {round(-plain.section.shear_centre[1], 9)}
+    # Held lengthwise under both webs, a beam would be clamped in plan; a box is not.
+    clamped = dict(zip((b := plain.beam(clamped_in_plan=True)).modes.names, b.modes.frequencies_hz, strict=True))
+    free = dict(zip((b := plain.beam()).modes.names, b.modes.frequencies_hz, strict=True))
+    assert clamped["lateral bending 1"] > 1.25 * free["lateral bending 1"]
+    # Lengthwise held below the centroid: second bending and axial motion form a pair.
+    names = plain.beam().modes.names
+    assert any(n.startswith("axial-bending") for n in names[:8])
+
+
+def test_switches_soften_the_beam(plain):
+    stiff = plain.beam(shear=False, rotary_inertia=False).modes.frequencies_hz[0]
+    assert plain.beam().modes.frequencies_hz[0] < plain.beam(rotary_inertia=False).modes.frequencies_hz[0] < stiff
+
+
+FILE = {
+    "spans": [36.0], "box": PLAIN, "damping": {"modal": 0.02}, "tracks": {"left": 2.4},
+    "bearing": [{"x": 0.0, "fixed": "x y z"}, {"x": 36.0, "fixed": "y z"}],
+}  # fmt: skip
+
+
+def test_deck_files_give_a_beam_or_a_shell():
+    beam = rb.deck_from_table("test", FILE | {"modes": 8})
+    shell = rb.deck_from_table("test", FILE | {"model": "shell", "modes": 8, "mesh": {"along": 20, "web": 2, "slab": 4}})
+    assert beam.mass_per_metre == pytest.approx(shell.mass_per_metre) and beam.width == shell.width == 9.6
+    assert beam.recovery is not None and shell.recovery is None
+    assert shell.frequencies_hz[0] == pytest.approx(beam.frequencies_hz[0], rel=0.03)
+    x = np.array([9.0, 18.0, 30.0])
+    ours, theirs = np.abs(shell.shapes(x)[:, 0, 1]), np.abs(beam.shapes(x)[:, 0, 1])
+    assert ours == pytest.approx(theirs, rel=0.03)
+    slope = (shell.shapes(x + 1e-5)[:, 0] - shell.shapes(x - 1e-5)[:, 0]) / 2e-5
+    assert shell.shapes(x, 1)[:, 0] == pytest.approx(slope, rel=1e-4, abs=1e-9)
+
+
+def test_a_car_crosses_the_shell():
+    """Static sag under slow axles: shell deck (no static correction, 30 modes) and beam deck within 5 %."""
+    train = rb.AxleTrain((0.0, 2.5), (100e3, 100e3))
+    peaks = []
+    for model in ({"modes": 10}, {"model": "shell", "modes": 30, "mesh": {"along": 20, "web": 2, "slab": 4, "cantilever": 2}}):
+        deck = rb.deck_from_table("test", FILE | model)
+        run = rb.cross(train, deck, rb.Track(), speed=5.0)
+        peaks.append(np.abs(run.displacement(18.0)["displacement_z"]).max())
+    assert peaks[1] == pytest.approx(peaks[0], rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"slab_thickness": 0.0}, "slab_thickness.*above 0"),
+        ({"web_thickness": -0.3}, "web_thickness.*above 0"),
+        ({"bottom_thickness": float("nan")}, "bottom_thickness.*finite"),
+        ({"diaphragm_thickness": 0.0}, "diaphragm_thickness.*above 0"),
+        ({"web_spacing": 9.5}, "webs stand outside the slab"),
+        ({"bottom_spacing": 9.5}, "bottom wider than the slab|outside the slab"),
+        ({"web_spacing": 0.3}, "run into each other"),
+        ({"bottom_spacing": 0.2}, "run into each other"),
+        ({"depth": 0.5}, "leaves .* of height"),
+        ({"edge_thickness": 1.9}, "leaves .* of height"),
+        ({"root_thickness": 0.4, "haunch_length": 2.6}, "haunch_length"),
+        ({"slab_width": "wide"}, "slab_width"),
+        ({"slab_width": 9600.0}, "at most 100"),
+        ({"track_mass": -1.0}, "track_mass"),
+        ({"inner_diaphragms": 1, "diaphragm_thickness": None}, "inner_diaphragm_thickness"),
+        ({"tracks": {"left": 5.0}}, "tracks.left"),
+        ({"bearings": (Pads(40.0),)}, "must lie on the deck|at most 36"),
+        ({"bearings": (Pads(0.0, ("w",)),)}, "must be one of x, y, z"),
+        ({"bearings": (Pads(0.0, ("x",), {"x": 1e6}),)}, "fixed, too"),
+        ({"bearings": (Pads(0.0, under="middle"),)}, "both, left, right"),
+        ({"bearings": (Pads(0.0, length=0.0),)}, "length"),
+    ],
+)
+def test_wrong_boxes_are_refused(changes, says):
+    with pytest.raises(InputError, match=says):
+        box(**changes)
+
+
+def test_mechanisms_are_refused_by_both_models():
+    loose = box(bearings=(Pads(0.0, ("y", "z")), Pads(36.0, ("y", "z"))))
+    for build in (loose.shell, loose.beam):
+        with pytest.raises(InputError, match="mechanism"):
+            build()
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"box": {k: v for k, v in PLAIN.items() if k != "depth"}}, "depth: is missing"),
+        ({"box": PLAIN | {"dept": 2.0}}, "Did you mean 'depth'"),
+        ({"box": 3.0}, "table"),
+        ({"model": "solid"}, "beam, shell"),
+        ({"mesh": {"web": 2}}, "belongs to the shell"),
+        ({"model": "shell", "mesh": {"webs": 2}}, "Did you mean 'web'"),
+        ({"model": "shell", "shear": True}, "switch of the beam"),
+        ({"shear": "yes"}, "true or false"),
+        ({"section": {}}, "unknown key"),
+        ({"bearing": [{"x": 0.0}]}, "fixed: is missing"),
+        ({"bearing": {"x": 0.0}}, "list of tables"),
+        ({"bearing": [{"x": 0.0, "fixed": 3}]}, "must list some"),
+        ({"length": 36.0}, "either length or spans"),
+    ],
+)
+def test_wrong_deck_files_are_refused(changes, says):
+    with pytest.raises(InputError, match=says):
+        rb.deck_from_table("test", FILE | changes)
+
+
+def test_boxes_load_by_name(tmp_path):
+    with pytest.raises(InputError, match=r"no table \[box\]"):
+        rb.box("viaduct36")
+    with pytest.raises(InputError, match="Did you mean"):
+        rb.box("viaduct36_identifed")
+    assert box_from_table("test", FILE) == replace(box(tracks={"left": 2.4}), bearings=(Pads(0.0, ("x", "y", "z")), Pads(36.0)))
+
+
+def test_pads_that_miss_the_end_by_rounding_stand_on_it():
+    pads = (Pads(0.0, ("x", "y", "z")), Pads(36.0 * (1 + 1e-10), ("y", "z")))
+    assert replace(rb.box("viaduct36_identified"), bearings=pads).bearings[1].x == 36.0

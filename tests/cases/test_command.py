@@ -1,0 +1,555 @@
+"""The command: what it writes, what it refuses and how it says so; never a traceback."""
+
+import copy
+import csv
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+import warnings
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from jsonschema import Draft7Validator
+
+import railbridge as rb
+from railbridge.cases import command as cli
+from railbridge.cases import shelf
+from railbridge.cases.definition import _KINDS
+
+SCHEMA = json.loads((shelf.data_root() / "case.schema.json").read_text(encoding="utf-8"))
+VALID = Draft7Validator(SCHEMA)
+
+CASE = """
+[deck]
+length = 12.0
+bending_stiffness_vertical = 5e9
+mass = 8000.0
+damping = { modal = 0.02 }
+modes = 3
+elements = 12
+[train]
+vehicle = "xia2000_planar"
+[track]
+vertical = { kind = "harmonic", amplitude = 1e-3, wavelength = 10.0 }
+[run]
+speed = 40.0
+time_step = 5e-3
+lead_in = 0.0
+tail = 0.1
+tolerance = 1e-3
+[output]
+points = [6.0]
+"""
+FILES = {"summary.json", "points.csv", "wheels.csv", "reactions.csv", "iterations.csv"}
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("case.toml").write_text(CASE, encoding="utf-8")
+    return tmp_path
+
+
+def command(capsys, *arguments):
+    """Exit code, lines on stdout, lines on stderr."""
+    code = cli.main(list(arguments))
+    shown = capsys.readouterr()
+    return code, shown.out.splitlines(), shown.err.splitlines()
+
+
+def refused(capsys, *arguments):
+    """The one line of a refusal."""
+    code, out, err = command(capsys, *arguments)
+    assert (code, out, len(err)) == (2, [], 1)
+    return err[0]
+
+
+def changed(before, after):
+    assert before in CASE
+    Path("case.toml").write_text(CASE.replace(before, after), encoding="utf-8")
+
+
+def test_run_writes_all_results_and_nothing_else(here, capsys):
+    code, out, err = command(capsys, "run", "case.toml", "--out", "deep/results")
+    assert (code, out, len(err)) == (0, [], 1)
+    assert "converged in" in err[0]
+    assert set(os.listdir("deep/results")) == FILES
+    assert set(os.listdir()) == {"case.toml", "deep"}
+    summary = json.loads(Path("deep/results/summary.json").read_text(encoding="utf-8"))
+    assert summary == rb.case("case.toml").summary()
+    for name in FILES - {"summary.json"}:
+        rows = list(csv.reader(Path("deep/results", name).read_text(encoding="utf-8").splitlines()))
+        assert rows[0][0] == "t"
+        assert len(rows) == 1 + summary["run"]["samples"]
+
+
+def test_quiet_says_nothing_and_old_results_are_replaced(here, capsys):
+    Path("results").mkdir()
+    for name in ("summary.json", "wheels.csv", "mine.txt"):
+        Path("results", name).write_text("old")
+    assert command(capsys, "run", "case.toml", "--out", "results", "-q", "--no-histories") == (0, [], [])
+    assert set(os.listdir("results")) == {"summary.json", "mine.txt"}
+    assert Path("results/mine.txt").read_text() == "old"
+    assert json.loads(Path("results/summary.json").read_text())["converged"]
+
+
+def test_keys_can_be_changed_on_the_command_line(here, capsys):
+    changes = ["--set", "run.speed=20", "--set", "run.interaction=rigid", "--set", "train.cars = 2"]
+    code, _, _ = command(capsys, "run", "case.toml", "--out", "r", *changes)
+    summary = json.loads(Path("r/summary.json").read_text())
+    assert (code, summary["run"]["speed"], summary["run"]["interaction"], summary["converged"]) == (0, 20.0, "rigid", None)
+    assert "--set" in refused(capsys, "run", "case.toml", "--out", "r", "--set", "run.speed")
+    assert "run.sped" in refused(capsys, "run", "case.toml", "--out", "r", "--set", "run.sped=3")
+
+
+def test_a_starter_is_written_runs_and_is_left_alone(here, capsys):
+    code, out, err = command(capsys, "new", "mine.toml")
+    assert (code, err) == (0, []) and "railbridge run mine.toml" in out[0]
+    text = Path("mine.toml").read_text(encoding="utf-8")
+    assert all("#" in line or "=" in line or line.startswith("[") or not line for line in text.splitlines())
+    VALID.validate(tomllib.loads(text))
+    assert (
+        command(capsys, "run", "mine.toml", "--out", "r", "-q", "--set", "run.time_step=4e-3", "--set", "run.tolerance=1e-3")[0]
+        == 0
+    )
+    assert "exists already" in refused(capsys, "new", "mine.toml")
+    assert Path("mine.toml").read_text(encoding="utf-8") == text
+    assert ".toml" in refused(capsys, "new", "mine.txt")
+    assert "cannot be written" in refused(capsys, "new", "no/such/folder.toml")
+
+
+def test_every_choice_that_the_starter_leaves_out_is_valid(here):
+    text = cli.STARTER.format(name="x.toml")
+    tried, table = set(), ""
+    for line in text.splitlines():
+        table = line[1 : line.index("]")] if line.startswith("[") else table
+        if not (table and re.match(r"# \w+ = ", line)):
+            continue
+        key, value = next(iter(tomllib.loads(line[2:]).items()))
+        tried.add(key)
+        content = tomllib.loads(text)
+        content[table][key] = value
+        if key in ("torsional_stiffness", "polar_inertia"):
+            content["deck"].update(torsional_stiffness=3e10, polar_inertia=5e4)
+        if key in ("axles", "loads") and table == "train":
+            content["train"] = {"axles": [0.0, 3.0, 11.0, 14.0], "loads": [2e5] * 4} | {key: value}
+        VALID.validate(content)
+        rb.Case(content)
+    assert {"time_step", "loads", "axles", "lateral", "relaxation", "tracks", "polar_inertia"} <= tried
+
+
+def test_help_shows_examples_files_and_exit_codes(capsys):
+    with pytest.raises(SystemExit) as stop:
+        cli.main(["--help"])
+    text = capsys.readouterr().out
+    assert stop.value.code == 0
+    for word in ("railbridge new", "railbridge run", "summary.json", *FILES, "exit codes", "SI"):
+        assert word in text
+    with pytest.raises(SystemExit) as stop:
+        cli.main([])
+    assert stop.value.code == 2
+
+
+def test_lists_and_schema(capsys):
+    code, out, _ = command(capsys, "list")
+    assert code == 0 and {"vehicles", "decks", "cases"} <= set(out)
+    assert any(line.startswith("  xia2000 ") for line in out)
+    code, out, _ = command(capsys, "schema")
+    assert json.loads("\n".join(out)) == SCHEMA
+    code, out, _ = command(capsys, "check", "paper")
+    assert code == 0 and "64 wheels" in out[0]
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"not TOML [", "not a valid TOML file"),
+        (b"\x7fELF\x00\xff\xfe", "not a valid TOML file"),
+        (b"", "deck: is missing"),
+        (b"[deck]\n[train]\n", "run: is missing"),
+        (b"deck = 3\ntrain = 4\nrun = 5", "run = 5: must be a table"),
+    ],
+)
+def test_what_is_no_case_file_is_refused(here, capsys, content, words):
+    Path("case.toml").write_bytes(content)
+    assert words in refused(capsys, "run", "case.toml", "--out", "r")
+    assert os.listdir() == ["case.toml"]
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "words"),
+    [
+        ("speed = 40.0", "sped = 40.0", "run.sped: unknown key. Did you mean 'speed'?"),
+        ("speed = 40.0", 'speed = "fast"', "run.speed = 'fast': must be a finite number above 0"),
+        ("speed = 40.0", "speed = -40.0", "run.speed = -40.0"),
+        ("speed = 40.0", "", "run.speed: is missing"),
+        ("[run]", "[ruin]", "ruin: unknown key"),
+        ("mass = 8000.0", "mass = 0", "deck.mass = 0"),
+        ("length = 12.0", 'length = "12"', "deck.length = '12'"),
+        ("modal = 0.02", "modal = 7", "deck.damping.modal = 7"),
+        ("modes = 3", 'bearing = [{ x = 0.0, fixed = "z" }]', "deck.bearings"),
+        ("length = 12.0", 'file = "viaduct36"', "deck.bending_stiffness_vertical"),
+        ('vehicle = "xia2000_planar"', 'vehicle = "xia2000_planer"', "train.vehicle = 'xia2000_planer': no such vehicle"),
+        ('vehicle = "xia2000_planar"', 'vehicle = "cars/mine.csv"', "train.vehicle = 'cars/mine.csv': no such file"),
+        ("[train]", "[[train]]", "several trains"),
+        ("wavelength = 10.0", "wavelength = 0.0", "track.vertical.wavelength = 0.0"),
+        ('"harmonic"', '"harmonc"', "track.vertical.kind = 'harmonc'"),
+        ("points = [6.0]", "points = [6.0, 60.0]", "output.points[1] = 60.0"),
+        ("time_step = 5e-3", "time_step = 5e-9", "GB"),
+        ("speed = 40.0", "speed = 1e-6", "run.time_step"),
+    ],
+)
+def test_a_bad_case_is_refused_with_the_path_of_the_key(here, capsys, before, after, words):
+    changed(before, after)
+    line = refused(capsys, "run", "case.toml", "--out", "r")
+    assert words in line
+    assert os.listdir() == ["case.toml"]
+
+
+def test_too_large_a_run_is_refused_with_the_estimate(here, capsys):
+    line = refused(capsys, "run", "case.toml", "--out", "r", "--set", "run.time_step=2e-6", "--set", "train.cars=2")
+    assert re.search(r"run\.time_step = 2e-06: .*about [\d.]+ GB", line)
+    assert os.listdir() == ["case.toml"]
+
+
+def test_missing_case_and_unwritable_folder_are_refused_before_computing(here, capsys, monkeypatch):
+    monkeypatch.setattr(rb.Case, "run", lambda *_: pytest.fail("computed before the folder was tried"))
+    assert "no such file" in refused(capsys, "run", "nothing.toml", "--out", "r")
+    assert "Known: paper" in refused(capsys, "run", "nothing", "--out", "r")
+    for out in ("case.toml", "case.toml/r", "/proc/r/r", "r\0r", "", "r" * 300):
+        assert "--out" in refused(capsys, "run", "case.toml", "--out", out)
+    assert os.listdir() == ["case.toml"]
+
+
+def test_no_convergence_is_told_and_written(here, capsys):
+    code, _, err = command(capsys, "run", "case.toml", "--out", "r", "--set", "run.max_iterations=1")
+    assert (code, len(err)) == (3, 1)
+    assert "run.max_iterations" in err[0]
+    summary = json.loads(Path("r/summary.json").read_text())
+    assert (summary["converged"], summary["iterations"], len(summary["changes"])) == (False, 1, 1)
+    assert set(os.listdir("r")) == FILES
+
+
+@pytest.mark.parametrize("existing", [True, False])
+@pytest.mark.parametrize(
+    ("error", "code"), [(KeyboardInterrupt(), 130), (MemoryError(), 1), (OSError(28, "No space left on device", "wheels.csv"), 1)]
+)
+def test_what_stops_in_the_middle_leaves_nothing(here, capsys, monkeypatch, error, code, existing):
+    def broken(run, points):
+        yield next(whole(run, points))
+        raise error
+
+    whole = cli.histories
+    monkeypatch.setattr(cli, "histories", broken)
+    if existing:
+        Path("r").mkdir()
+        Path("r/summary.json").write_text("old")
+    stopped, out, err = command(capsys, "run", "case.toml", "--out", "r" if existing else "new/r")
+    assert (stopped, out, len(err)) == (code, [], 1)
+    assert set(os.listdir()) == {"case.toml"} | ({"r"} if existing else set())
+    if existing:
+        assert [(p.name, p.read_text()) for p in Path("r").iterdir()] == [("summary.json", "old")]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals differ")
+def test_ctrl_c_stops_the_command_with_130(here):
+    long = ["--set", "train.cars=40", "--set", "run.time_step=1e-3", "--set", "run.interaction=direct"]
+    program = [sys.executable, "-m", "railbridge", "run", "case.toml", "--out", "r", *long]
+
+    def listen():
+        # A shell that starts the tests in the background has SIGINT ignored, and children inherit that.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+    with subprocess.Popen(program, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=listen) as process:
+        deadline = time.monotonic() + 60
+        while not any(p.name.startswith(".railbridge-") for p in here.iterdir()) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "Traceback" not in err
+    assert os.listdir() == ["case.toml"]
+
+
+def test_progress_is_one_line_in_a_terminal(monkeypatch, capsys):
+    now = [0.0]
+    monkeypatch.setattr(cli.time, "monotonic", lambda: now[0])
+    progress = cli._Progress(quiet=False)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    for now[0] in (0.5, 2.0, 2.1, 3.0):
+        progress(f"iteration {now[0]}")
+    progress.end()
+    shown = capsys.readouterr().err
+    assert "\n" not in shown and shown.count("iteration") == 2 and shown.endswith("\r")
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: False)
+    for now[0] in (20.0, 21.0, 31.0):
+        progress(f"iteration {now[0]}")
+    assert capsys.readouterr().err == "railbridge: iteration 20.0, 20 s\nrailbridge: iteration 31.0, 31 s\n"
+
+
+def test_a_warning_is_one_line(here, capsys):
+    changed("lead_in = 0.0", "lead_in = 5.0")
+    code, _, err = command(capsys, "run", "case.toml", "--out", "r", "-q")
+    assert code == 0
+    assert len(err) == 1
+    assert err[0].startswith("railbridge: warning: run.lead_in")
+
+
+def test_files_of_a_case_are_found_beside_it(here, capsys, monkeypatch):
+    vehicles = shelf.data_file("vehicles", "xia2000_planar").read_text(encoding="utf-8")
+    deck = "length = 12.0\nbending_stiffness_vertical = 5e9\nmass = 8000.0\nmodes = 3\ndamping = { modal = 0.02 }\n"
+    Path("job/parts").mkdir(parents=True)
+    Path("job/parts/mine.toml").write_text(vehicles, encoding="utf-8")
+    Path("job/bridge.toml").write_text(deck)
+    text = f'[deck]\nfile = "bridge.toml"\n{CASE[CASE.index("[train]") :]}'
+    mixed = 'cars = ["parts/mine.toml", { vehicle = "parts/mine.toml", count = 2 }, "xia2000_planar"]'
+    Path("job/case.toml").write_text(text.replace('vehicle = "xia2000_planar"', mixed))
+    Path("elsewhere").mkdir()
+    monkeypatch.chdir("elsewhere")
+    code, out, err = command(capsys, "check", "../job/case.toml")
+    assert (code, err) == (0, [])
+    assert "16 wheels" in out[0]
+    case = rb.case(Path("..") / "job" / "case.toml")
+    assert len(case.train.vehicles) == 4
+    assert case.replace({"run.speed": 20.0}).deck is case.deck
+
+
+# ---- the schema ----------------------------------------------------------------------------------------------------------
+
+
+def _properties(table):
+    return set(SCHEMA["definitions"][table]["properties"])
+
+
+def known_keys(path, value):
+    """What the loader names as known when it meets a key it does not know."""
+    content = tomllib.loads(CASE)
+    content = copy.deepcopy({**content, **value})
+    place = content
+    for part in path:
+        place = place[part]
+    place["0"] = 1
+    with pytest.raises(rb.InputError, match="unknown key") as error:
+        rb.Case(content)
+    assert error.value.remedy.startswith("Known: ")
+    return set(error.value.remedy.removeprefix("Known: ").split(", "))
+
+
+SECTION = {
+    "youngs_modulus": 35e9, "poisson_ratio": 0.2, "density": 2500.0, "area": 4.8, "second_moment_vertical": 2.5,
+    "second_moment_lateral": 25.0, "torsion_constant": 5.6,
+}  # fmt: skip
+NOTCH = {"wheels": [[1, 1]], "circumference": 2.7, "offset": 1.0, "depth": 1e-3, "length": 0.5}
+HARMONIC = {"kind": "harmonic", "amplitude": 1e-3, "wavelength": 10.0}
+
+
+def test_schema_knows_every_key_the_loader_accepts():
+    own = {"length": 12.0, "section": dict(SECTION), "damping": {"modal": 0.02}}
+    definitions = SCHEMA["definitions"]
+    assert known_keys([], {}) == set(SCHEMA["properties"])
+    for table in ("run", "output", "track"):
+        assert known_keys([table], {}) == _properties(table)
+    plates = {"slab_width": 6.0, "slab_thickness": 0.2, "depth": 1.0, "web_thickness": 0.2, "web_spacing": 3.0}
+    plates |= {"bottom_thickness": 0.2, "youngs_modulus": 3e10}
+    boxed = {"length": 12.0, "box": plates, "damping": {"modal": 0.02}, "bearing": [{"x": 0.0, "fixed": "x y z"}]}
+    assert known_keys(["deck"], {}) | known_keys(["deck"], {"deck": boxed}) | {"file"} == _properties("deck")
+    assert known_keys(["deck", "box"], {"deck": boxed}) == _properties("box")
+    assert known_keys(["deck", "bearing", 0], {"deck": boxed}) == _properties("pads")
+    held = {**boxed, "bearing": [], "model": "shell", "mesh": {}}
+    assert known_keys(["deck", "mesh"], {"deck": held}) == _properties("mesh")
+    assert known_keys(["deck", "section"], {"deck": own}) == _properties("section")
+    assert known_keys(["deck", "bearing", 0], {"deck": {**own, "bearing": [{"x": 0.0, "fixed": "z"}]}}) == _properties("bearing")
+    damping = [{"modal": 0.02}, {"ratio": 0.03, "frequencies_hz": [1.0, 2.0]}]
+    both = [known_keys(["deck", "damping"], {"deck": {**own, "damping": d}}) for d in damping]
+    assert set.union(*both) == _properties("damping")
+    trains = [{"vehicle": "xia2000"}, {"axles": [0.0], "loads": [1e5]}]
+    assert set.union(*(known_keys(["train"], {"train": t}) for t in trains)) == _properties("train")
+    notched = {"train": {"vehicle": "xia2000_planar", "notch": [dict(NOTCH)]}}
+    assert known_keys(["train", "notch", 0], notched) == _properties("notch")
+    mixed = {"train": {"cars": [{"vehicle": "xia2000_planar"}]}}
+    count = definitions["train"]["properties"]["cars"]["anyOf"][1]["items"]["anyOf"][1]
+    assert known_keys(["train", "cars", 0], mixed) == set(count["properties"])
+    kinds = {k["properties"]["kind"]["const"]: set(k["properties"]) for k in definitions["irregularity"]["oneOf"]}
+    given_ = {"none": {"kind": "none"}, "harmonic": HARMONIC, "table": {"kind": "table", "x": [0.0, 9.0], "r": [0.0, 0.0]}}
+    assert set(kinds) == set(_KINDS)
+    for kind in set(kinds) & set(given_):
+        found = known_keys(["track", "vertical"], {"track": {"vertical": dict(given_[kind])}})
+        assert found - {"none"} | {"kind"} == kinds[kind], kind
+
+
+def test_schema_is_a_schema_and_every_shipped_case_fits_it():
+    Draft7Validator.check_schema(SCHEMA)
+    for name in shelf.data_names("cases", ".toml"):
+        VALID.validate(shelf.read_toml(shelf.data_file("cases", name)))
+    VALID.validate(tomllib.loads(CASE))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"deck.file": "viaduct36"}, {"deck.length": None}, {"deck.spans": [6.0, 6.0]}, {"deck.mass": None}, {"deck.mass": -1.0},
+        {"deck.section": SECTION}, {"deck.damping": None}, {"deck.damping": 0.02}, {"deck.damping.ratio": 0.1}, {"deck.mas": 1},
+        {"train.vehicle": None}, {"train.axles": [0.0]}, {"train.cars": ["xia2000"]}, {"train.cars": 0}, {"train.cars": "two"},
+        {"train.notch": [{**NOTCH, "deep": 1}]}, {"track.vertical.kind": "x"}, {"track.vertical.half_waves": 3.0},
+        {"track.up": HARMONIC}, {"run.speed": None}, {"run.speed": 0.0}, {"run.speed": True}, {"run.loads": "wheel"},
+        {"run.relaxation": "newton"}, {"run.sped": 1.0}, {"output.points": []}, {"output.point": [1.0]}, {"extra": {"a": 1}},
+    ],
+    ids=str,
+)  # fmt: skip
+def test_schema_and_loader_refuse_alike(change):
+    content = _changed(tomllib.loads(CASE), change)
+    assert not VALID.is_valid(content)
+    with pytest.raises(rb.InputError):
+        rb.Case(content)
+
+
+def _changed(content, change):
+    for path, value in change.items():
+        *parents, last = path.split(".")
+        place = content
+        for parent in parents:
+            place = place[parent]
+        if value is None:
+            place.pop(last)
+        else:
+            place[last] = value
+    return content
+
+
+# ---- anything at all -----------------------------------------------------------------------------------------------------
+
+WORDS = st.sampled_from(
+    sorted({*SCHEMA["properties"], *(p for d in SCHEMA["definitions"].values() for p in d.get("properties", {})), "kind", "x"})
+)
+LEAVES = (
+    st.sampled_from(
+        ["xia2000_planar", "viaduct36", "harmonic", "none", "table", "direct", "rigid", "wheels", "left", "", "a/b.toml"]
+    )
+    | st.integers(-3, 60)
+    | st.floats(allow_nan=True, allow_infinity=True)
+    | st.sampled_from([0.0, 1e-3, 0.02, 1.0, 12.0, 5e9, 8000.0, 1e300])
+    | st.booleans()
+)
+VALUES = st.recursive(LEAVES, lambda v: st.lists(v, max_size=3) | st.dictionaries(WORDS, v, max_size=4), max_leaves=8)
+
+
+@st.composite
+def mutated(draw):
+    """A valid case with some of its values, keys or tables replaced, added or taken away."""
+    content = tomllib.loads(CASE)
+    for _ in range(draw(st.integers(1, 3))):
+        place = content
+        while True:
+            key = draw(st.sampled_from(sorted(place)))
+            if not isinstance(place[key], dict) or not place[key] or draw(st.integers(0, 3)) == 0:
+                break
+            place = place[key]
+        what = draw(st.integers(0, 3))
+        if what == 0:
+            del place[key]
+            if not content:
+                break
+        elif what == 1:
+            place[draw(WORDS)] = draw(VALUES)
+        else:
+            place[key] = draw(VALUES)
+        if not place:
+            break
+    return content
+
+
+def loaded_or_refused(content):
+    try:
+        case = rb.Case(content)
+    except rb.InputError as error:
+        assert str(error)
+        return None
+    return case
+
+
+@settings(max_examples=250, suppress_health_check=list(HealthCheck))
+@given(mutated())
+def test_mutated_cases_are_loaded_or_refused_in_words(content):
+    case = loaded_or_refused(content)
+    if case is not None:
+        # The schema is never stricter than the loader.
+        assert VALID.is_valid(case.content), list(VALID.iter_errors(case.content))
+
+
+@settings(max_examples=60, suppress_health_check=list(HealthCheck))
+@given(st.dictionaries(WORDS | st.text(max_size=5), VALUES, max_size=5))
+def test_random_tables_are_refused_in_words(content):
+    loaded_or_refused(content)
+
+
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    st.binary(max_size=200)
+    | st.text(max_size=200).map(str.encode)
+    | st.sampled_from([CASE.encode()[:n] for n in range(0, 500, 9)])
+)
+def test_random_files_never_give_a_traceback(tmp_path, data):
+    path = tmp_path / "case.toml"
+    path.write_bytes(data)
+    assert cli.main(["check", str(path)]) in (0, 2)
+
+
+@settings(max_examples=25, suppress_health_check=list(HealthCheck))
+@given(mutated())
+def test_mutated_cases_that_load_also_run(tmp_path_factory, content):
+    case = loaded_or_refused(content)
+    if case is None or len(case.train.wheels) > 40 or (case.deck.length + case.train.length) / case.settings.speed > 20.0:
+        return
+    if case.settings.lead_in / case.settings.speed > 20.0 or case.settings.tail > 20.0 or case.settings.time_step < 1e-3:
+        return
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            run = case.replace({"run.max_iterations": 3}).run()
+        except rb.NotConvergedError as error:
+            run = error.run
+        cli.to_json(case.summary(run))
+
+
+@settings(max_examples=60)
+@given(
+    st.lists(
+        st.sampled_from(["run", "new", "list", "check", "schema", "case.toml", "--out", "-q", "--set", "a=b", "", "\0", "é"]),
+        max_size=4,
+    )
+)
+def test_random_arguments_never_give_a_traceback(tmp_path_factory, arguments):
+    if "new" in arguments[:1] or ("run" in arguments[:1] and "--out" in arguments):
+        arguments = [*arguments, "--nothing"]  # only the parser is tried: no files
+    try:
+        assert cli.main(arguments) in (0, 2)
+    except SystemExit as stop:
+        assert stop.code == 2
+
+
+# ---- the page that describes it ------------------------------------------------------------------------------------------
+
+
+def test_the_page_on_cases_names_every_key_and_its_example_runs():
+    page = (Path(__file__).resolve().parents[2] / "docs" / "case.md").read_text(encoding="utf-8")
+    words = set(re.findall(r"\w+", " ".join(re.findall(r"`([^`\n]+)`", page))))
+    wanted = {p for d in SCHEMA["definitions"].values() for p in d.get("properties", {})} | set(SCHEMA["properties"])
+    summary = rb.case("paper").replace({"train.cars": 1, "run.time_step": 4e-3, "run.interaction": "rigid"}).summary()
+
+    def names(value):
+        if isinstance(value, dict):
+            return set(value).union(*map(names, value.values()))
+        return set().union(*map(names, value)) if isinstance(value, list) else set()
+
+    assert (wanted | names(summary)) - words - {"count", "t"} == set()
+    example = tomllib.loads(re.search(r"```toml\n(.*?)```", page, re.DOTALL).group(1))
+    VALID.validate(example)
+    rb.Case(example)

@@ -1,0 +1,230 @@
+"""The summary says what the crossing holds, with place and time, and statics stands beside it."""
+
+import dataclasses
+import json
+import math
+
+import numpy as np
+import pytest
+
+import railbridge as rb
+from railbridge.cases.summary import ENVELOPE, QUANTITIES, bytes_needed, histories, summarize, to_json
+
+KEYS = {
+    "vehicle_frequencies_hz", "deck_frequencies_hz", "deck_mode_names", "remarks", "converged", "iterations", "changes",
+    "deviation_percent",
+    "run", "wheel_force_z", "wheel_unloading", "points", "envelope", "reactions", "car_body", "self_weight",
+}  # fmt: skip
+COARSE = {"train.cars": 1, "run.loads": "wheels", "run.time_step": 4e-3, "run.tolerance": 1e-6, "run.tail": 0.3}
+
+
+@pytest.fixture(scope="module")
+def run():
+    return rb.case("paper").replace(COARSE).run()
+
+
+@pytest.fixture(scope="module")
+def found(run):
+    return summarize(run, [9.0, 18.0])
+
+
+@pytest.fixture(scope="module")
+def plain_deck():
+    """A beam without lateral and torsional data, axle loads on it."""
+    content = {
+        "deck": {"length": 20.0, "bending_stiffness_vertical": 2e10, "mass": 9000.0, "damping": {"modal": 0.01}, "modes": 6},
+        "train": {"axles": [0.0, 3.0], "loads": [2e5, 1e5]},
+        "run": {"speed": 30.0, "time_step": 2e-3},
+        "output": {"points": [10.0]},
+    }
+    return rb.Case(content)
+
+
+def test_keys_are_stable_and_the_text_is_strict_json(found):
+    assert set(found) == KEYS
+    assert set(found["points"][0]) == {"x", *QUANTITIES}
+    assert set(found["envelope"]) == set(ENVELOPE)
+    assert [set(r) for r in found["reactions"]] == [{"x", "force_x", "force_y", "force_z", "moment_x"}] * 2
+    assert set(found["points"][0]["displacement_z"]) == {"min", "max", "static", "dynamic_factor"}
+    assert json.loads(to_json(found)) == found
+
+
+def test_extremes_are_those_of_the_histories_at_their_time(run, found):
+    for point in found["points"]:
+        history = run.displacement(point["x"])
+        for name, pick in (("min", np.min), ("max", np.max)):
+            entry = point["displacement_z"][name]
+            assert entry["value"] == pick(history["displacement_z"])
+            assert history["displacement_z"][np.argmin(np.abs(run.time - entry["t"]))] == entry["value"]
+    moment = found["points"][1]["moment_vertical"]["min"]["value"]
+    assert moment == pytest.approx(run.section_forces(18.0).extreme("moment_vertical")[0])
+    wheel = found["wheel_force_z"]["max"]
+    at = np.argmin(np.abs(run.time - wheel["t"]))
+    assert run.wheel_force(wheel["car"], wheel["wheel"])["force_z"][at] == wheel["value"] == run.wheel_forces[:, 1].max()
+    unloading = found["wheel_unloading"]["max"]
+    assert unloading["value"] == pytest.approx(1 + wheel["value"] / run.train.wheels[0].static_load)
+    assert 0.1 < unloading["value"] < 0.2
+
+
+def test_envelope_meets_the_points_and_the_reactions(run, found):
+    for name in ENVELOPE:
+        entry = found["envelope"][name]
+        stations = entry["stations"]
+        assert len(stations["x"]) == len(stations["min"]) == 41
+        assert min(stations["min"]) == entry["min"]["value"]
+        assert stations["x"][int(np.argmax(stations["max"]))] == entry["max"]["x"]
+        # 9 m and 18 m are stations.
+        for point in found["points"]:
+            at = stations["x"].index(point["x"])
+            assert stations["min"][at] == pytest.approx(point[name]["min"]["value"], rel=1e-9, abs=1e-12)
+    torque = found["envelope"]["torsion"]["stations"]
+    ends = [r["moment_x"]["max"]["value"] for r in found["reactions"]]
+    assert [-torque["min"][0], torque["max"][-1]] == pytest.approx(ends, rel=1e-6)
+
+
+def test_static_value_is_statics(found, plain_deck):
+    # One car on one span: the worst place of four equal axles of two bogies for the displacement at mid-span, by hand.
+    length, stiffness = 36.0, 35e9 * 2.553
+    load = 585.76e3 / 4
+
+    def sag(x):
+        x = np.minimum(x, length - x)
+        return np.where(x > 0, x * (3 * length**2 - 4 * x**2) / (48 * stiffness), 0.0)
+
+    first = np.linspace(0, 60, 6001)
+    axles = np.array([0.0, 2.5, 15.6, 18.1])
+    by_hand = -load * max(sum(sag(f - a) for a in axles) for f in first)
+    assert found["points"][1]["displacement_z"]["static"] == pytest.approx(by_hand, rel=1e-4)
+    # Axle loads of 200 and 100 kN 3 m apart on 20 m: the moment at mid-span peaks with the heavy one there.
+    summary = plain_deck.summary()
+    assert summary["points"][0]["moment_vertical"]["static"] == pytest.approx(-(2e5 * 5.0 + 1e5 * 3.5), rel=1e-9)
+    # The reaction peaks as the second axle enters, or as the first leaves: at the far end the heavy one alone counts fully.
+    near, far = (r["force_z"]["static"] for r in summary["reactions"])
+    assert [near, far] == pytest.approx([1e5 + 2e5 * 17 / 20, 2e5 + 1e5 * 17 / 20], rel=1e-6)
+
+
+def test_continuous_deck_and_places_where_nothing_can_be(plain_deck):
+    case = plain_deck.replace({"deck.length": None, "deck.spans": [20.0, 20.0]} | {"output.points": [8.0, 0.0, 40.0]})
+    summary = case.summary()
+    # Two equal spans: the middle bearing carries more than an end, and the moment at an end is nothing.
+    near, middle, far = (r["force_z"]["static"] for r in summary["reactions"])
+    assert middle > max(near, far) and near == pytest.approx(262.67e3, rel=1e-4)
+    for end in summary["points"][1:]:
+        assert (end["moment_vertical"]["static"], end["moment_vertical"]["dynamic_factor"]) == (0.0, None)
+        assert end["shear_vertical"]["dynamic_factor"] == pytest.approx(1.0, abs=0.1)
+    assert summary["points"][0]["moment_vertical"]["static"] < 0.0
+
+
+def test_a_deck_of_modes_only_has_no_section_forces():
+    whole = rb.deck("viaduct36")
+    bare = dataclasses.replace(whole, recovery=None, supports=())
+    train = rb.Train(rb.vehicle("xia2000_planar"))
+    options = {"speed": 20.0, "time_step": 4e-3, "interaction": "rigid", "track_offset": "left"}
+    found = [summarize(rb.cross(train, deck, **options), [18.0]) for deck in (whole, bare)]
+    statics = [[f["points"][0][n]["static"] for n in ("displacement_z", "rotation_x")] for f in found]
+    assert statics[1] == pytest.approx(statics[0], rel=5e-3)
+    assert found[1]["points"][0]["moment_vertical"] is None
+    assert found[1]["reactions"] == []
+    assert found[1]["self_weight"]["displacement_z"] == [None]
+
+
+def test_a_slow_train_gives_a_dynamic_factor_of_one(plain_deck):
+    summary = plain_deck.replace({"run.speed": 0.5, "run.time_step": 0.02, "deck.damping.modal": 0.2}).summary()
+    for name in ("displacement_z", "moment_vertical"):
+        assert summary["points"][0][name]["dynamic_factor"] == pytest.approx(1.0, abs=2e-3)
+
+
+def test_what_is_not_there_is_null_not_zero(plain_deck):
+    summary = plain_deck.summary()
+    point = summary["points"][0]
+    for name in ("displacement_y", "rotation_x", "acceleration_y", "moment_lateral", "torsion"):
+        assert point[name] is None
+    assert point["acceleration_z"]["static"] == 0.0
+    assert point["acceleration_z"]["dynamic_factor"] is None
+    assert summary["envelope"]["torsion"] is None
+    assert summary["reactions"][0]["force_y"] is None
+    assert summary["car_body"] == {"acceleration_z": None, "acceleration_y": None}
+    assert summary["vehicle_frequencies_hz"] == []
+    assert summary["wheel_unloading"]["max"]["value"] == 0.0
+
+
+@pytest.mark.parametrize("interaction", ["rigid", "direct"])
+def test_only_an_iteration_converges(interaction):
+    summary = rb.case("paper").replace({**COARSE, "run.interaction": interaction}).summary()
+    assert (summary["converged"], summary["iterations"], summary["changes"]) == (None, 0, None)
+    assert summary["deviation_percent"]["from_rigid"] == [] or interaction == "direct"
+
+
+def test_self_weight_stands_apart(found):
+    weight = 12000.0 * 9.81
+    assert found["self_weight"]["displacement_z"][1] == pytest.approx(-5 * weight * 36**4 / (384 * 35e9 * 2.553), rel=1e-6)
+    assert found["self_weight"]["moment_vertical"][1] == pytest.approx(-weight * 36**2 / 8, rel=1e-6)
+    assert found["self_weight"]["force_z"] == pytest.approx([weight * 18] * 2, rel=1e-6)
+
+
+def test_car_body_acceleration_is_newton():
+    train = rb.Train(rb.vehicle("sprung_mass"), cars=2, car_spacing=12.0)
+    track = rb.Track(vertical=rb.Harmonic(1e-3, wavelength=10.0))
+    run = rb.cross(train, rb.deck("viaduct36"), track, speed=30.0, time_step=2e-3, tolerance=1e-4)
+    mass = run.train.wheels[0].static_load / 9.81
+    force = -run.wheel_forces[:, 1] - mass * 9.81
+    assert np.allclose(run.body_accelerations[:, 1, 1], force / mass, atol=1e-9)
+    found = summarize(run, [18.0])["car_body"]
+    assert found["acceleration_y"] is None
+    assert found["acceleration_z"]["max"]["value"] == pytest.approx((force / mass).max())
+    assert found["acceleration_z"]["max"]["place"] in ("front", "middle", "rear")
+
+
+def test_the_middle_of_a_car_body_moves_as_the_mean_of_its_ends(run):
+    front, middle, rear = run.body_accelerations[0]
+    assert np.allclose(middle, (front + rear) / 2, atol=1e-9)
+    assert np.abs(middle[1]).max() > 0.5
+
+
+def test_histories_start_with_t_and_name_their_units(run):
+    tables = {t.name: t for t in histories(run, [9.0, 18.0])}
+    assert list(tables) == ["points", "wheels", "reactions", "iterations"]
+    for table in tables.values():
+        assert table.columns[0] == "t"
+        assert all(c.endswith(")") for c in table.columns[1:])
+        assert len(table.columns) == len(set(table.columns)) == len(table.values)
+        assert np.array_equal(table.values[0], run.time)
+    assert len(tables["wheels"].columns) == 1 + 2 * 8
+    assert len(tables["iterations"].columns) == 2 + run.iterations
+    assert np.allclose(tables["iterations"].values[-1], run.displacement(9.0)["displacement_z"])
+    lines = "".join(tables["reactions"].rows(chunk=7)).splitlines()
+    read = np.array([line.split(",") for line in lines[1:]], dtype=float)
+    assert read.shape == (len(run.time), len(lines[0].split(",")))
+    assert np.allclose(read[:, 2], tables["reactions"].values[2], rtol=1e-8)
+
+
+def test_a_run_that_blew_up_is_still_written():
+    deck = {"length": 10.0, "bending_stiffness_vertical": 1e8, "mass": 40.0, "damping": {"modal": 0.0}, "modes": 4}
+    options = {"speed": 20.0, "time_step": 4e-3, "max_iterations": 12}
+    case = rb.Case({"deck": deck, "train": {"vehicle": "xia2000"}, "run": options})
+    with np.errstate(all="ignore"), pytest.raises(rb.NotConvergedError) as error:
+        case.run()
+    with np.errstate(all="ignore"):
+        summary = summarize(error.value.run, [5.0])
+    assert summary["converged"] is False
+    to_json(summary)
+
+
+def test_memory_grows_with_what_is_asked():
+    case = rb.case("paper")
+    needed = bytes_needed(case.train, case.deck, case.settings)
+    assert 1e8 < needed < 6e8  # measured peak 0.27 GB
+    finer = case.replace({"run.time_step": 1e-4})
+    assert bytes_needed(finer.train, finer.deck, finer.settings) > 5 * needed
+    assert math.isfinite(needed)
+
+
+def test_the_papers_case_in_numbers():
+    summary = rb.case("paper").replace({"run.time_step": 2e-3, "run.tolerance": 1e-4}).summary()
+    point, envelope = summary["points"][0], summary["envelope"]
+    assert point["displacement_z"]["min"]["value"] == pytest.approx(-7.23e-3, rel=0.01)
+    assert point["moment_vertical"]["min"]["value"] == pytest.approx(-5.526e6, rel=0.01)
+    assert point["moment_lateral"]["max"]["value"] == pytest.approx(62e3, rel=0.02)
+    assert envelope["torsion"]["max"]["value"] == pytest.approx(2.071e6, rel=0.02)
+    assert max(r["force_z"]["max"]["value"] for r in summary["reactions"]) == pytest.approx(865e3, rel=0.02)
+    assert point["displacement_z"]["static"] == pytest.approx(-6.534e-3, rel=1e-3)

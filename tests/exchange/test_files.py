@@ -1,0 +1,323 @@
+"""Files of modal models: read, refused and given back."""
+
+import dataclasses
+import json
+import shutil
+import tomllib
+
+import numpy as np
+import pytest
+from jsonschema import Draft7Validator
+from modal_files import EXAMPLE, cells, change, crossing, differ, read
+from opensees import example_tables, viaduct36_in_mm
+
+import railbridge as rb
+from railbridge.cases import command as cli
+from railbridge.cases.shelf import data_root
+from railbridge.exchange import files as exchange
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A copy of the example that a test may spoil."""
+    return shutil.copytree(EXAMPLE, tmp_path / "model")
+
+
+# ---- round trip
+
+
+def beams():
+    plain = rb.deck("viaduct36")
+    beam = plain.recovery.beam
+    soft = dataclasses.replace(beam, shear_stiffness_vertical=3e9, shear_stiffness_lateral=3e9)
+    spans = rb.deck_from_table("two", {**json.loads(TWO_SPANS)})
+    raised = dataclasses.replace(plain, track_height=1.3)
+    tracks = {"tracks": plain.tracks, "width": plain.width}
+    return {"plain": plain, "soft in shear": soft.deck(12, 0.02, **tracks), "two spans": spans, "track above the axis": raised}
+
+
+TWO_SPANS = """{"spans": [20.0, 16.0], "mass": 12000.0, "bending_stiffness_vertical": 3e10, "bending_stiffness_lateral": 3e11,
+ "torsional_stiffness": 8e10, "polar_inertia": 7e4, "damping": {"modal": 0.02}, "modes": 12, "tracks": {"left": 2.0}}"""
+
+
+@pytest.mark.parametrize("units", [("m", "kg"), ("mm", "t")])
+@pytest.mark.parametrize("name", ["plain", "soft in shear", "two spans", "track above the axis"])
+def test_a_deck_that_is_written_and_read_back_answers_alike(name, units, tmp_path):
+    deck = beams()[name]
+    back = rb.deck(exchange.export_modes(deck, tmp_path / "out", units))
+    assert back.mode_names == deck.mode_names and back.tracks == deck.tracks and back.supports == deck.supports
+    assert back.recovery is None and back.track_height == deck.track_height
+    ours, theirs = crossing(deck), crossing(back)
+    for kind in ("displacement", "velocity", "acceleration"):
+        for component, values in getattr(ours, kind)(13.3).values.items():
+            other = getattr(theirs, kind)(13.3)[component]
+            assert np.max(np.abs(other - values)) < 1e-9 * np.max(np.abs(values)), (kind, component)
+    dynamic = ours.wheel_forces - ours.wheel_forces.mean(axis=2, keepdims=True)
+    assert np.max(np.abs(theirs.wheel_forces - ours.wheel_forces)) < 1e-9 * np.max(np.abs(dynamic))
+
+
+def test_written_tables_stand_without_the_deck_file(tmp_path):
+    deck = rb.deck("viaduct36")
+    exchange.export_modes(deck, tmp_path)
+    model = exchange.read_modes(tmp_path / "nodes.csv", tmp_path / "modes.csv")
+    assert model.to_frame().shape == (20, 2)
+    assert differ(exchange.deck_from_modes(model, model.nodes.line()), deck).max() < 1e-12
+    # Other readers do not know the rule of thirds: rotations give cubics, twist is a parabola over three nodes.
+    change(tmp_path / "nodes.csv", lambda lines: [line for line in lines if "pieces" not in line])
+    model = exchange.read_modes(tmp_path / "nodes.csv", tmp_path / "modes.csv")
+    bending, twist = differ(exchange.deck_from_modes(model, model.nodes.line()), deck)[[1, 2]]
+    assert bending < 1e-12 and twist < 1e-2
+
+
+# ---- somebody else's model
+
+
+def test_the_example_is_what_the_other_program_computes():
+    tables = example_tables()
+    for name, (header, rows) in tables.items():
+        lines = (EXAMPLE / name).read_text(encoding="utf-8").splitlines()
+        assert lines[:2] == ["# units: mm, t", header]
+        stored, fresh = np.loadtxt(lines[2:], delimiter=","), np.array(rows)
+        # Entries that round-off alone makes differ from zero say nothing.
+        size = np.abs(fresh).max(axis=0)
+        assert np.all(np.abs(stored - fresh) < 1e-6 * size + 1e-12), name
+
+
+def test_the_example_is_the_shipped_deck():
+    deck, ours = rb.deck(EXAMPLE / "deck.toml"), rb.case("paper").replace({"deck": {"file": "viaduct36", "modes": 10}}).deck
+    assert deck.mode_names == (
+        "vertical 1", "lateral 1", "vertical 2", "torsion 1", "vertical 3", "torsion 2", "lateral 2", "torsion 3", "vertical 4",
+        "torsion 4",
+    )  # fmt: skip
+    # Nodal masses make torsion of the other program's elements a little soft: pi^2 n^2 / (24 * 24^2), 1.1 % at n = 4.
+    assert deck.frequencies_hz == pytest.approx(ours.frequencies_hz, rel=1.2e-2)
+    assert deck.frequencies_hz[:4] == pytest.approx(ours.frequencies_hz[:4], rel=1e-3)
+    there, here = crossing(deck), crossing(ours)
+    for name, limit in (("displacement_z", 1e-3), ("displacement_y", 5e-3), ("rotation_x", 5e-3)):
+        a, b = there.displacement(18.0)[name], here.displacement(18.0)[name]
+        assert np.max(np.abs(a)) == pytest.approx(np.max(np.abs(b)), rel=limit)
+
+
+def test_units_and_axes_of_the_model_do_not_matter(folder):
+    want = exchange.deck_from_modes(read(EXAMPLE), read(EXAMPLE).nodes.line({"y": 0.0, "z": 0.0}))
+
+    def inches(lines):
+        rows = [line.split(",") for line in lines[2:]]
+        turned = [[r[0], *(repr(float(v) / 25.4) for v in (r[1], r[3], "-" + r[2]))] for r in rows]
+        return ["# units: in, lb", lines[1], *map(",".join, turned)]
+
+    def pounds(lines):
+        # y up: the model's y is our z, its z our -y. Shapes are scaled to a modal mass of 7 lb.
+        scale, result = (0.45359237 / 1e3 * 7.0) ** 0.5, ["# units: in, lb", lines[1] + ",modal_mass"]
+        for line in lines[2:]:
+            row = line.split(",")
+            v = [float(c) for c in row[4:]]
+            v = [v[0], v[2], -v[1], *(25.4 * r for r in (v[3], v[5], -v[4]))]
+            result.append(",".join([*row[:4], *(repr(scale * c) for c in v), "7.0"]))
+        return result
+
+    change(folder / "nodes.csv", inches)
+    change(folder / "modes.csv", pounds)
+    model = read(folder, masses=False, axes=["x", "-z", "y"])
+    deck = exchange.deck_from_modes(model, model.nodes.line({"y": 0.0, "z": 0.0}))
+    assert differ(deck, want).max() < 1e-12
+    assert deck.frequencies_hz == pytest.approx(want.frequencies_hz)
+
+
+# ---- deck files and cases
+
+
+def test_a_case_takes_a_modal_deck_by_file_and_in_place(folder):
+    case = rb.case("paper")
+    by_file = case.replace({"deck": {"file": str(folder / "deck.toml")}})
+    tables = {"modes": {k: str(folder / f"{k}.csv") for k in ("nodes", "modes")} | {"rail": {"y": 0.0, "z": 0.0}}}
+    in_place = case.replace({"deck": {**tables, "tracks": {"left": 2.4}, "damping": {"modal": 0.02}}})
+    assert by_file.deck.frequencies_hz.tolist() == in_place.deck.frequencies_hz.tolist()
+    assert set(in_place.deck.damping_ratios) == {0.02}
+    assert len(by_file.replace({"deck.modes": 4}).deck.frequencies_hz) == 4
+    change(folder / "modes.csv", lambda lines: [line.replace("3.30737617", "3.4") for line in lines])
+    assert by_file.replace({"run.speed": 21.0}).deck is by_file.deck, "a change that does not name the deck keeps it"
+    assert rb.Case(by_file.content).deck.frequencies_hz[0] == 3.4, "a case made anew reads a changed file again"
+
+
+def test_paths_in_a_case_file_are_relative_to_it(folder, tmp_path, monkeypatch):
+    text = (
+        '[deck]\ntracks = { left = 2.4 }\n[deck.modes]\nnodes = "model/nodes.csv"\nmodes = "model/modes.csv"\n'
+        'rail = { y = 0.0, z = 0.0 }\n[train]\nvehicle = "xia2000"\n[run]\nspeed = 20.0\n'
+    )
+    (tmp_path / "case.toml").write_text(text, encoding="utf-8")
+    monkeypatch.chdir(folder.parent.parent)
+    assert len(rb.case(tmp_path / "case.toml").deck.frequencies_hz) == 10
+
+
+# ---- bad input
+
+
+def other_line(number, edit):
+    return lambda lines: [edit(line) if i == number else line for i, line in enumerate(lines, start=1)]
+
+
+def mode(number, edit):
+    return lambda lines: [edit(line) if line.startswith(f"{number},") else line for line in lines]
+
+
+def scaled(column, factor):
+    return lambda lines: [
+        line if i < 2 else cells(line, column, repr(float(line.split(",")[column]) * factor)) for i, line in enumerate(lines)
+    ]
+
+
+def shapes_scaled(factor):
+    def edit(lines):
+        for column in range(4, 10):
+            lines = scaled(column, factor)(lines)
+        return lines
+
+    return edit
+
+
+def mixed(lines):
+    """Mode 3 takes half of mode 1 along."""
+    first = {line.split(",")[3]: line.split(",") for line in lines if line.startswith("1,")}
+
+    def mix(line):
+        row = line.split(",")
+        other = first[row[3]]
+        return ",".join([*row[:4], *(repr(float(a) + 0.5 * float(b)) for a, b in zip(row[4:], other[4:], strict=True))])
+
+    return mode(3, mix)(lines)
+
+
+def doubled(lines):
+    return [*lines, *(cells(line, 0, "11") for line in lines if line.startswith("5,"))]
+
+
+BAD = {
+    "a row is missing": ("modes.csv", lambda lines: lines[:80] + lines[81:], "mode 2: lacks 1 of the nodes that other modes"),
+    "a node in no mode": ("modes.csv", lambda ls: [x for x in ls if x.split(",")[3:4] != ["9"]], "4% of the mass stands"),
+    "a node that is not there": ("modes.csv", other_line(20, lambda x: cells(x, 3, "999")), "line 20: node = '999': is not"),
+    "a node twice": ("nodes.csv", lambda lines: [*lines, "7,1,2,3"], "node = '7': is given twice, in lines 9 and 78"),
+    "a node twice in a mode": ("modes.csv", lambda lines: [*lines, lines[-1]], "mode 10: node = '225': is given twice"),
+    "two nodes at one place": ("nodes.csv", other_line(5, lambda x: cells(x, 1, "1500")), "two nodes stand at x = 1.5 m"),
+    "modes that overlap": ("modes.csv", mixed, "modes 1 and 3: 0.45 of their mass products is shared"),
+    "a mode twice": ("modes.csv", doubled, "modes 5 and 11"),
+    "shapes of largest value 1": ("modes.csv", shapes_scaled(10.0), "not mass-normalised, or masses in another unit"),
+    "kg instead of t": ("nodes.csv", other_line(1, lambda x: "# units: mm, kg"), "the file itself says mm, t"),
+    "no units": ("nodes.csv", lambda lines: lines[1:], "nodes.csv: units: are stated nowhere"),
+    "an unknown unit": ("nodes.csv", other_line(1, lambda x: "# units: yd, t"), "units of length = 'yd'"),
+    "a column is missing": ("modes.csv", other_line(2, lambda x: x.replace("uz", "w")), "column w: unknown column"),
+    "no number": ("modes.csv", other_line(9, lambda x: cells(x, 6, "1,5".replace(",", ";"))), "line 9: uz = '1;5'"),
+    "not a number": ("nodes.csv", other_line(9, lambda x: cells(x, 1, "nan")), "line 9: x = 'nan': must be a finite number"),
+    "a cell too many": ("nodes.csv", other_line(9, lambda x: x + ",0"), "line 9 = '7,9000,0,0,0': must have 4 cells"),
+    "two frequencies": ("modes.csv", other_line(9, lambda x: cells(x, 1, "3.4")), "mode 1: frequency_hz = [3.30737617, 3.4]"),
+    "a free body": ("modes.csv", mode(1, lambda x: cells(x, 1, "0")), "hold the deck by its bearings"),
+    "damping in per cent": ("modes.csv", mode(1, lambda x: cells(x, 2, "3")), "damping_ratio = 3.0"),
+    "a negative mass": ("masses.csv", other_line(9, lambda x: cells(x, 1, "-1")), "node 7: mass"),
+    "no rows": ("masses.csv", lambda lines: lines[:2], "masses.csv: holds no rows"),
+    "few rail nodes": ("deck.toml", lambda lines: [x.replace("y = 0.0", "y = 1.0") for x in lines], "rail = {'y': 1.0"),
+    "an unknown key": ("deck.toml", lambda lines: [*lines, "rails = 1"], "modes.rails: unknown key. Did you mean 'rail'?"),
+    "a wrong path": ("deck.toml", lambda lines: [x.replace('"modes.csv"', '"mode.csv"') for x in lines], "file = 'mode.csv'"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_what_cannot_be_used_is_refused(name, folder):
+    file, edit, message = BAD[name]
+    change(folder / file, edit)
+    with pytest.raises(rb.InputError) as error:
+        rb.deck(folder / "deck.toml")
+    assert message in str(error.value)
+
+
+def units(text):
+    return {name: other_line(1, lambda line: f"# units: {text}") for name in ("nodes.csv", "modes.csv")}
+
+
+ODD = {
+    "m instead of mm": (units("m, t"), "an order of magnitude away: bridges of 3.6e+04 m"),
+    "squares of rad/s": ({"modes.csv": scaled(1, 130.0)}, "first frequency = 429.9"),
+    "kg instead of t": (units("mm, kg"), "make the deck 12 kg per metre"),
+    "shapes of largest value 1": ({"modes.csv": shapes_scaled(0.0147)}, "need the column modal_mass"),
+}
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_units_that_make_no_bridge_are_refused_without_masses_too(name, folder):
+    edits, message = ODD[name]
+    for file, edit in edits.items():
+        change(folder / file, edit)
+    change(folder / "deck.toml", lambda lines: [x for x in lines if not x.startswith(("masses", "supports"))])
+    with pytest.raises(rb.InputError) as error:
+        rb.deck(folder / "deck.toml")
+    assert message in str(error.value)
+    change(folder / "deck.toml", lambda lines: [*lines, "unusual = true"])
+    assert rb.deck(folder / "deck.toml").length > 0.0
+
+
+def test_doubtful_models_are_warned_about(folder):
+    change(folder / "modes.csv", scaled(1, 2 * np.pi))
+    with pytest.warns(UserWarning, match=r"first frequency 20.8 Hz: bridges of 36 m have about 2.8 to 6.5 Hz"):
+        rb.deck(folder / "deck.toml")
+    change(folder / "modes.csv", scaled(1, 0.5 / np.pi))
+    change(folder / "modes.csv", scaled(8, -1.0))
+    with pytest.warns(UserWarning, match="-ry is not the slope of uz along the rail"):
+        turned = rb.deck(folder / "deck.toml")
+    assert differ(turned, rb.deck(EXAMPLE / "deck.toml")).max() < 5e-3
+    change(folder / "modes.csv", scaled(8, -1.0))
+    change(folder / "modes.csv", mixed)
+    change(folder / "deck.toml", lambda lines: [x for x in lines if not x.startswith("masses")])
+    with pytest.warns(UserWarning, match="modes 1 and 3 overlap by 0.45 along the rail"):
+        rb.deck(folder / "deck.toml")
+
+
+def test_other_refusals_name_the_field(folder):
+    model = read(EXAMPLE)
+    for rail, field in [
+        ({"nodes": [1, 2, 999]}, "rail.nodes"),
+        ({"nodes": [1, 2, 2]}, "rail.nodes"),
+        ({"nodes": "1 2 3"}, "rail.nodes"),
+        ({"y": 0.0, "nodes": [1, 2, 3]}, "rail.y"),
+        ({"left": {"y": 1.42}, "right": {"y": 3.38}}, "rail.left"),
+        ({"left": {"y": 3.38}, "right": {"nodes": [1, 2, 3]}}, "rail"),
+        ({"left": {"nodes": [101, 102, 103]}, "right": {"nodes": [201, 203, 204]}}, "rail"),
+        (None, "rail"),
+    ]:
+        with pytest.raises(rb.InputError) as error:
+            model.nodes.line(rail)
+        assert error.value.field == field
+    for axes in (["x", "y", "-z"], ["x", "x", "z"], "xyz", ["x", "up", "z"]):
+        with pytest.raises(rb.InputError, match="axes"):
+            read(EXAMPLE, axes=axes)
+    change(
+        folder / "modes.csv",
+        lambda lines: [cells(x, 2, "damping_ratio" if i == 1 else "") if i else x for i, x in enumerate(lines)],
+    )
+    with pytest.raises(rb.InputError, match="damping: is missing"):
+        rb.deck(folder / "deck.toml")
+    change(folder / "modes.csv", lambda lines: [x for x in lines if x.split(",")[3:4] != ["9"]])
+    change(folder / "deck.toml", lambda lines: [x for x in lines if not x.startswith("masses")])
+    with pytest.raises(rb.InputError, match="rail = '9': is a node of the rail that the modes leave out"):
+        rb.deck(folder / "deck.toml")
+
+
+def test_the_other_programs_deck_is_the_shipped_section():
+    assert viaduct36_in_mm().masses()[1].tolist() == pytest.approx([12e3 * 1e-3 * 1.5, 2500 * (2.553 + 25.53) * 1.5 * 1e3])
+
+
+def test_a_modal_deck_runs_by_command_and_fits_the_schema(folder, tmp_path, capsys):
+    schema = json.loads((data_root() / "case.schema.json").read_text(encoding="utf-8"))
+    deck = tomllib.loads((folder / "deck.toml").read_text(encoding="utf-8"))
+    content = {"deck": deck, "train": {"vehicle": "xia2000_planar"}, "run": {"speed": 20.0, "time_step": 4e-3, "iterations": 1}}
+    Draft7Validator(schema).validate(content)
+    for spoiled in ({"modes": {"nodes": "nodes.csv"}}, {**deck, "mass": 1.0}, {"modes": {**deck["modes"], "unit": "mm"}}):
+        assert not Draft7Validator(schema).is_valid({**content, "deck": spoiled})
+        with pytest.raises(rb.InputError):
+            rb.Case({**content, "deck": spoiled})
+    case = tmp_path / "case.toml"
+    run = '[train]\nvehicle = "xia2000_planar"\n[run]\nspeed = 20.0\ntime_step = 4e-3\niterations = 1\n'
+    case.write_text(f'[deck]\nfile = "model/deck.toml"\n{run}', encoding="utf-8")
+    assert cli.main(["run", str(case), "--out", str(tmp_path / "out")]) == 0
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
+    assert summary["remarks"] and summary["points"][0]["moment_vertical"] is None
+    header = (tmp_path / "out" / "points.csv").read_text(encoding="utf-8").splitlines()[0]
+    assert "displacement_z" in header and "moment" not in header

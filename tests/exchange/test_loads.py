@@ -1,0 +1,124 @@
+"""Loads on another program's nodes: its answers against ours, statics, and the files."""
+
+import re
+
+import numpy as np
+import pytest
+from nodal import ARM, AXIS, NODES, OPTIONS, PAIR, TRACK, TRAIN, answer, line_of, rms
+from opensees import viaduct36_in_mm
+
+import railbridge as rb
+from railbridge.exchange import files as exchange
+from railbridge.exchange.loads import export_loads, nodal_loads
+from railbridge.exchange.staggered import begin
+
+
+@pytest.fixture(scope="module")
+def ours():
+    return rb.cross(TRAIN, rb.deck("viaduct36"), TRACK, iterations=3, **OPTIONS)
+
+
+@pytest.mark.parametrize("couples", [True, False])
+def test_nodal_loads_give_our_displacement_in_another_program(ours, couples):
+    loads = nodal_loads(ours, line_of(36), couples)
+    moved = answer(viaduct36_in_mm(36), loads) * [[[1e-3]], [[1e-3]], [[1.0]]]
+    # The middle of 36 elements is node 19. Twist has some 2 % of its energy in modes that nodal masses shift.
+    for component, name, limit in ((1, "displacement_z", 2e-3), (0, "displacement_y", 5e-3), (2, "rotation_x", 5e-3)):
+        other, own = moved[component, 18], ours.displacement(18.0)[name]
+        assert np.max(np.abs(other)) == pytest.approx(np.max(np.abs(own)), rel=limit)
+        assert rms(other) == pytest.approx(rms(own), rel=limit)
+        assert rms(other - own) < 2 * limit * rms(own)
+
+
+@pytest.mark.parametrize("loads", ["wheels", "bogies", "condensed"])
+@pytest.mark.parametrize("couples", [True, False])
+@pytest.mark.parametrize("line", [AXIS, ARM, PAIR], ids=["axis", "arm", "pair"])
+def test_nodal_loads_are_statically_equivalent_at_every_instant(line, couples, loads):
+    run = rb.cross(TRAIN, rb.deck("viaduct36"), TRACK, loads=loads, interaction="rigid", **OPTIONS)
+    found = nodal_loads(run, line, couples)
+    places = np.stack([np.repeat(line.x, line.y.shape[1]), line.y.ravel(), line.z.ravel()], axis=1)
+    force = found.values[:, :3].sum(axis=0)
+    moment = found.values[:, 3:].sum(axis=0) + np.cross(places[:, None], found.values[:, :3].transpose(0, 2, 1)).sum(axis=0).T
+    want = np.zeros((6, len(run.time)))
+    coupling = run.coupling
+    for delay, start, load in zip(
+        coupling.load_delays, coupling.loads.starts, coupling.station_loads(run.passes[0]), strict=True
+    ):
+        window = slice(start, start + load.shape[1])
+        x = 20.0 * run.time[window] - delay
+        load = np.concatenate([load, np.zeros((5 - len(load), load.shape[1]))])
+        want[1:3, window] += load[:2]
+        want[3, window] += load[2]
+        want[4, window] += load[3] - x * load[1]
+        want[5, window] += load[4] + x * load[0]
+    assert force == pytest.approx(want[:3], abs=1e-9 * np.abs(want[2]).max())
+    assert moment == pytest.approx(want[3:], abs=1e-9 * np.abs(want[4]).max())
+    if line.paired and not couples:
+        assert not found.values[:, 3:].any(), "solid elements take no couples"
+
+
+def test_the_load_table_holds_what_was_computed(ours, tmp_path):
+    loads = export_loads(ours, tmp_path / "loads.csv", AXIS, every=5)
+    header, *rows = (tmp_path / "loads.csv").read_text(encoding="utf-8").splitlines()
+    names = header.split(",")
+    table = np.array([row.split(",") for row in rows], dtype=float)
+    assert names[0] == "t (s)" and table[:, 0] == pytest.approx(loads.time[::5])
+    assert len(names) == len(set(names)) == table.shape[1]
+    column = names.index("node 13 force_z (N)")
+    assert table[:, column] == pytest.approx(loads.values[12, 2, ::5], rel=1e-8)
+    # Couples in N mm, as the model has them.
+    column = names.index("node 13 moment_x (N mm)")
+    assert table[:, column] == pytest.approx(1e3 * loads.values[12, 3, ::5], rel=1e-8)
+    assert not any("force_x" in name for name in names)
+
+
+def test_loads_follow_the_axes_of_the_model(ours):
+    """y up: the model's y is our z, and its z our -y."""
+    nodes = exchange.Nodes(AXIS.nodes, NODES.places[:25], ("m", "t"), np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]))
+    plain = nodal_loads(ours, AXIS).values
+    values, unit = nodal_loads(ours, nodes.line()).of_model()
+    assert unit == "kN"
+    assert values[:, 1] == pytest.approx(plain[:, 2] / 1e3)
+    assert values[:, 2] == pytest.approx(-plain[:, 1] / 1e3)
+    assert values[:, 4] == pytest.approx(plain[:, 5] / 1e3)
+
+
+def test_the_abaqus_files_say_the_same(ours, tmp_path):
+    loads = export_loads(ours, tmp_path / "rail.inp", AXIS, form="abaqus", instance="DECK-1")
+    text = (tmp_path / "rail.inp").read_text(encoding="ascii")
+    blocks = dict(re.findall(r"\*AMPLITUDE, NAME=(\w+)\n((?:[^*]+\n)+)", text))
+    functions = {f"RB_{node}_{component + 1}": values for node, component, values in loads.functions()}
+    assert set(blocks) == set(functions)
+    for name in ("RB_13_3", "RB_13_4", "RB_2_5"):
+        lines = blocks[name].splitlines()
+        assert max(line.count(",") for line in lines) == 7, "four pairs a line"
+        pairs = np.array(", ".join(lines).split(", "), dtype=float).reshape(-1, 2)
+        assert np.all(np.diff(pairs[:, 0]) > 0)
+        back = np.interp(loads.time, pairs[:, 0], pairs[:, 1], left=0.0, right=0.0)
+        assert back == pytest.approx(functions[name], rel=1e-7, abs=1e-7 * np.abs(functions[name]).max())
+    applied = re.findall(
+        r"\*CLOAD, AMPLITUDE=(\w+)\n([\w.-]+), (\d), 1.0\n", (tmp_path / "rail_loads.inp").read_text(encoding="ascii")
+    )
+    assert {name for name, _, _ in applied} == set(functions)
+    assert ("RB_13_3", "DECK-1.13", "3") in applied
+    assert max(len(line) for line in text.splitlines()) <= 256
+
+
+SHORT = {"length": 30.0, "bending_stiffness_vertical": 8e10, "mass": 12e3, "damping": {"modal": 0.02}}
+
+
+def test_other_refusals_name_the_field(ours, tmp_path):
+    with pytest.raises(rb.InputError, match="line: is missing"):
+        nodal_loads(ours)
+    with pytest.raises(rb.InputError, match="as long as the deck"):
+        nodal_loads(rb.cross(TRAIN, rb.deck_from_table("d", SHORT), interaction="rigid", speed=20.0), AXIS)
+    with pytest.raises(rb.InputError, match="form = 'nastran'"):
+        export_loads(ours, tmp_path / "x.csv", AXIS, form="nastran")
+    with pytest.raises(rb.InputError, match="its folder does not exist"):
+        export_loads(ours, tmp_path / "no" / "x.csv", AXIS)
+
+
+def test_bare_axles_go_out_too():
+    step = begin(rb.AxleTrain([0.0, 3.0], [1e5, 2e5]), rb.Track(), AXIS, speed=30.0)
+    total = nodal_loads(step).values[:, 2].sum(axis=0)
+    assert total.min() == pytest.approx(-3e5) and total[0] == pytest.approx(-1e5)

@@ -1,0 +1,92 @@
+"""Modes at another program's nodes, put under the rail."""
+
+import dataclasses
+import shutil
+
+import numpy as np
+import pytest
+from modal_files import EXAMPLE, change, crossing, differ, read
+
+import railbridge as rb
+from railbridge.cases.summary import summarize
+from railbridge.exchange.modal import deck_from_modes
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A copy of the example that a test may spoil."""
+    return shutil.copytree(EXAMPLE, tmp_path / "model")
+
+
+@pytest.mark.parametrize(
+    "rail", [{"y": 3.38, "z": 1.3}, {"left": {"nodes": range(101, 126)}, "right": {"y": 1.42, "z": 1.3}}], ids=["arm", "pair"]
+)
+def test_nodes_beside_the_axis_move_it_as_a_rigid_section(rail):
+    model = read(EXAMPLE)
+    on_axis = deck_from_modes(model, model.nodes.line({"y": 0.0, "z": 0.0}))
+    line = model.nodes.line(rail, {"y": 0.0, "z": 0.0})
+    off, other = differ(deck_from_modes(model, line), on_axis), 10 * [0.0]
+    assert len(other) == len(on_axis.mode_names)
+    # One node has rotations, so the axis follows to round-off of the file; a pair has splines instead.
+    assert off.max() < (1e-2 if line.paired else 1e-8)
+    # Without `axis` the deck axis is at the rails themselves, which move sideways when the deck twists about an axis below.
+    raised = deck_from_modes(model, model.nodes.line(rail))
+    twist = raised.mode_names.index("torsion 1") if "torsion 1" in raised.mode_names else 3
+    above = raised.shapes(np.array([18.0]))[0, twist]
+    assert above[0] == pytest.approx(-1.3 * above[2], rel=1e-6)
+
+
+def test_displacements_alone_do_where_there_are_no_rotations(folder):
+    """As solid elements: rotations are printed as zeros, or not at all."""
+    whole = read(EXAMPLE)
+    exact = deck_from_modes(whole, whole.nodes.line({"y": 0.0, "z": 0.0}))
+    pair = {"left": {"y": 3.38, "z": 1.3}, "right": {"y": 1.42, "z": 1.3}}
+    for edit in (
+        lambda lines: [line if i < 2 else ",".join([*line.split(",")[:7], "0,0,0"]) for i, line in enumerate(lines)],
+        lambda lines: [line if i < 1 else ",".join(line.split(",")[:7]) for i, line in enumerate(lines)],
+    ):
+        change(folder / "modes.csv", edit)
+        model = read(folder, masses=False)
+        assert model.rotations == (False, False, False)
+        deck = deck_from_modes(model, model.nodes.line(pair, {"y": 0.0, "z": 0.0}), count=6)
+        assert differ(deck, dataclasses.replace(exact, shapes=_first(exact.shapes, 6))).max() < 2e-3
+        single = deck_from_modes(model, model.nodes.line({"y": 0.0, "z": 0.0}))
+        assert single.has == {"y": True, "z": True, "roll": False}
+        # Pure torsion moves no rail of such a line.
+        assert not any(name.startswith("torsion") for name in single.mode_names)
+
+
+def _first(shapes, count):
+    return dataclasses.replace(shapes, coefficients=shapes.coefficients[:, :, :count])
+
+
+def test_masses_show_how_orthogonal_the_modes_are():
+    found = read(EXAMPLE).orthogonality()
+    assert found.known_masses and found.worst < 1e-8
+    assert found.own == pytest.approx(np.ones(10), rel=1e-6)
+    guess = read(EXAMPLE, masses=False).orthogonality()
+    assert not guess.known_masses and np.isnan(guess.own).all()
+
+
+def test_what_modes_cannot_give_is_null_and_said():
+    deck = rb.deck(EXAMPLE / "deck.toml")
+    summary = summarize(crossing(deck, interaction="rigid", iterations=None), [18.0])
+    point = summary["points"][0]
+    assert [point[n] for n in ("moment_vertical", "moment_lateral", "torsion", "shear_vertical")] == [None] * 4
+    assert point["displacement_z"]["min"]["value"] < -1e-3
+    assert summary["reactions"] == [] and summary["self_weight"]["moment_vertical"] == [None]
+    assert "Only modes of this deck are known" in summary["remarks"][0]
+    assert summarize(crossing(rb.deck("viaduct36"), interaction="rigid", iterations=None), [18.0])["remarks"] == []
+    with pytest.raises(rb.InputError, match="only its modes are known"):
+        crossing(deck, interaction="rigid", iterations=None).section_forces(18.0)
+
+
+def test_a_rail_that_stands_still_and_damping_that_is_none_are_refused():
+    model = read(EXAMPLE)
+    line = model.nodes.line({"y": 0.0, "z": 0.0})
+    for damping in (-0.1, "little", (1.0,)):
+        with pytest.raises(rb.InputError, match="damping"):
+            deck_from_modes(model, line, damping=damping)
+    still = dataclasses.replace(model, shapes=0.0 * model.shapes)
+    with pytest.raises(rb.InputError, match="rail: stands still in every mode"):
+        deck_from_modes(still, line)

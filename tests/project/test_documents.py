@@ -1,0 +1,55 @@
+"""What the documents say about commands and files is true."""
+
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
+TARGETS = dict(re.findall(r"^([a-z-]+):[^#\n]*## .*\n((?:\t.*\n)*)", MAKEFILE, re.MULTILINE))
+DOCUMENTS = ("README.md", "CONTRIBUTING.md")
+
+
+def rows_of_commands(name):
+    """[(make target, plain command)] from a document's tables."""
+    text = (ROOT / name).read_text(encoding="utf-8")
+    return re.findall(r"^\| `make ([a-z-]+)` \| `([^`]+)`", text, re.MULTILINE)
+
+
+def test_readme_gives_a_plain_command_for_every_target():
+    assert {target for target, _ in rows_of_commands("README.md")} == set(TARGETS) - {"help", "env"}
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_plain_commands_are_those_of_the_makefile(name):
+    for target, command in rows_of_commands(name):
+        recipe = TARGETS[target].replace("$(BIN)/", "").replace("$(PYTHON)", "python").replace(" $(ARGS)", "")
+        assert command in recipe, target
+
+
+def links(name):
+    text = (ROOT / name).read_text(encoding="utf-8")
+    return [target for target in re.findall(r"\]\(([^)#]+)\)", text) if not re.match(r"\w+:", target)]
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_files_that_a_document_links_to_exist(name):
+    assert [target for target in links(name) if not (ROOT / target).exists()] == []
+
+
+def test_readme_lists_every_notebook_with_its_title():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    for path in sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb")):
+        title = nbformat.read(path, as_version=4).cells[0].source.splitlines()[0].lstrip("# ")
+        assert f"| [{path.stem}](notebooks/{path.name}) | {title} |" in text
+
+
+def test_citation_can_be_read():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert citation["authors"] == [{"name": "The railbridge contributors"}]
+    assert citation["references"][0]["year"] == 2016
+    version = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(encoding="utf-8"), re.MULTILINE)
+    assert str(citation["version"]) == version.group(1)

@@ -1,0 +1,458 @@
+"""The rules of the page, the same for every notebook. `notebooks/_template.ipynb` explains them and is checked too.
+
+`broken_rules` returns one line for each rule that a notebook breaks. The tests below apply it to every notebook in the
+folder, and to copies of the template that break one rule each, so that no rule can fall silent.
+"""
+
+import copy
+import importlib.util
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import nbformat
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / "notebooks"
+TEMPLATE = FOLDER / "_template.ipynb"
+TEMPLATE_NUMBER = "99"
+NUMBERED = sorted(FOLDER.glob("[0-9][0-9]_*.ipynb"))
+
+GOALS, SYMBOLS, THEORY, SOLVE = "What you will be able to do", "Sketch and symbols", "Theory", "Build, solve, look"
+OPEN, CHECK, EXPLORE, EXERCISES = "Open the box", "Check", "Explore", "Exercises"
+FOUND, REFERENCES = "What we found", "References"
+
+
+@dataclass(frozen=True)
+class Page:
+    """What is asked of one notebook; a heading that is not listed may stand anywhere."""
+
+    sections: tuple = (GOALS, SYMBOLS, THEORY, SOLVE, OPEN, CHECK, EXPLORE, EXERCISES, FOUND, REFERENCES)
+    words: tuple = (500, 1500)
+    code_lines: tuple = (40, 130)
+    exercises: tuple = ("recall", "change", "extend")
+    needs: tuple = ("You need", "Time", "Equations")
+
+
+# The pages that are no lessons of the usual kind: the door, the comparison, the long check, and the one with two programs.
+PAGES = {
+    "00": Page((GOALS, EXPLORE, FOUND, REFERENCES), (200, 1200), (5, 80), (), ("You need", "Time")),
+    # Two hierarchies of deck, and how the second was found.
+    "04": Page(words=(500, 2700), code_lines=(40, 220)),
+    "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3000), (20, 210), (), ("You need", "Time")),
+    "09": Page((GOALS, SYMBOLS, CHECK, EXERCISES, FOUND, REFERENCES), (500, 3000), (20, 270)),
+    # The other program that the page needs is written out on it.
+    "12": Page(code_lines=(40, 170)),
+}
+COURSE = ("00", "01", "02", "03", "04", "05", "06", "08")
+CELL_LINES = 15
+PRINTED_LETTERS = 100  # what a page of the site shows; JupyterLab wraps longer lines in a narrow window
+COLOURS = "plt.style.use(rb.plots.STYLE)"
+FIGURE_WORDS = 12
+FILE_BYTES = 400_000
+
+MARKED = "NBVAL_CHECK_OUTPUT"
+EXEMPT = re.compile(r"^# not compared: \S.*\S", re.MULTILINE)
+SYMBOL_HEADER = ["symbol", "in code", "meaning", "unit", "value", "source"]
+RAW_IN_JUPYTER = {r"\eqref": "write (3.1) as text", ":::{": "use <details> or an alert", "> [!": "use an alert <div>"}
+FORBIDDEN_MARKERS = ("NBVAL_SKIP", "NBVAL_IGNORE_OUTPUT", "NBVAL_RAISES_EXCEPTION")
+MACHINE_PATH = re.compile(r"(?<![\w.])/(?:home|root|tmp|Users)/|\b[A-Z]:\\")
+WIDGET = "application/vnd.jupyter.widget-"
+
+
+def load_tool():
+    spec = importlib.util.spec_from_file_location("notebooks_tool", ROOT / "tools" / "notebooks.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+PANEL_TEXT = load_tool().PANEL_TEXT
+
+
+# ---- reading a notebook
+
+
+def is_code(cell):
+    return cell.cell_type == "code"
+
+
+def is_text(cell):
+    return cell.cell_type == "markdown"
+
+
+def marker(cell, name):
+    return any(line.strip().lstrip("#").strip() == name and "#" in line for line in cell.source.splitlines())
+
+
+def figures(cell):
+    return sum(mime.startswith("image/") for out in cell.get("outputs", []) for mime in out.get("data", {}))
+
+
+def is_panel(cell):
+    return any(out.get("data", {}).get("text/plain") == PANEL_TEXT for out in cell.get("outputs", []))
+
+
+def prints(cell):
+    """True if the stored cell shows text that is neither the shadow of a figure nor of a panel."""
+    for out in cell.get("outputs", []):
+        data = out.get("data", {})
+        shown = out.get("text") or ("text/html" in data) or ("text/latex" in data) or data.get("text/plain")
+        if shown and not any(mime.startswith("image/") for mime in data) and data.get("text/plain") != PANEL_TEXT:
+            return True
+    return False
+
+
+def code_lines(cell):
+    """Lines that a reader has to read: not blank, no marker of ours, not the setting that stands on every page."""
+    lines = [line.strip() for line in cell.source.splitlines()]
+    return [line for line in lines if line and line.strip("# ") != MARKED and not EXEMPT.match(line) and COLOURS not in line]
+
+
+def prose(cell):
+    """The words of a text cell, without formulas, tables, links' targets, HTML tags and code."""
+    text = re.sub(r"```.*?```|\$\$.*?\$\$|\$[^$\n]*\$|<[^>]+>|\]\([^)]*\)", " ", cell.source, flags=re.DOTALL)
+    text = re.sub(r"^\s*\|.*$", " ", text, flags=re.MULTILINE)
+    return [word for word in text.split() if re.search(r"[^\W\d_]", word)]
+
+
+def headings(cell, level):
+    source = re.sub(r"```.*?```", "", cell.source, flags=re.DOTALL)
+    return re.findall(rf"^{'#' * level} +(.+?) *$", source, re.MULTILINE) if is_text(cell) else []
+
+
+def section_of(notebook):
+    """{heading: its cells}; the cells before the first second-level heading stand under ''."""
+    sections, current = {"": []}, ""
+    for cell in notebook.cells:
+        for heading in headings(cell, 2):
+            current = heading
+        sections.setdefault(current, []).append(cell)
+    return sections
+
+
+def joined(cells):
+    return "\n".join(cell.source for cell in cells)
+
+
+# ---- the rules, in groups
+
+
+def rules_of_the_page(notebook, number, page):
+    first = notebook.cells[0].source if notebook.cells else ""
+    title = re.match(r"# (\d\d) - [A-Z][a-z]+ \S.*", first)
+    if not title or title.group(1) != number:
+        yield f"the first line is the title: '# {number} - Verb ...'"
+    if sum(len(headings(cell, 1)) for cell in notebook.cells) != 1:
+        yield "there is one first-level heading, the title"
+    if "?" not in first:
+        yield "the question that the page answers stands below the title"
+    found = [heading for cell in notebook.cells for heading in headings(cell, 2)]
+    for heading in page.sections:
+        if found.count(heading) != 1:
+            yield f"section '## {heading}' appears once"
+    present = [heading for heading in found if heading in page.sections]
+    if len(present) == len(page.sections) and present != list(page.sections):
+        yield "sections stand in this order: " + ", ".join(page.sections)
+    sections = section_of(notebook)
+    for need in page.needs:
+        if f"**{need}:**" not in joined(sections.get(GOALS, [])):
+            yield f"'**{need}:**' stands in '{GOALS}'"
+    text = joined(filter(is_text, notebook.cells))
+    for raw, instead in RAW_IN_JUPYTER.items():
+        if raw in text:
+            yield f"JupyterLab shows '{raw}' as it is: {instead}"
+    words = sum(len(prose(cell)) for cell in notebook.cells if is_text(cell))
+    if not page.words[0] <= words <= page.words[1]:
+        yield f"{page.words[0]} to {page.words[1]} words of text, not {words}"
+
+
+def rules_of_the_sections(notebook, number, page):
+    sections = section_of(notebook)
+    if SYMBOLS in page.sections:
+        text = joined(filter(is_text, sections.get(SYMBOLS, [])))
+        rows = [[entry.strip().lower() for entry in line.strip("| ").split("|")] for line in text.splitlines()]
+        if SYMBOL_HEADER not in rows:
+            yield "a symbol table with the columns " + " | ".join(SYMBOL_HEADER)
+        if "![" not in text and "```" not in text and not any(map(figures, sections.get(SYMBOLS, []))):
+            yield f"a sketch (picture, figure or fenced drawing) in '{SYMBOLS}'"
+    if THEORY in page.sections and rf"\tag{{{int(number)}." not in joined(sections.get(THEORY, [])):
+        yield rf"numbered equations in '{THEORY}': \tag{{{int(number)}.1}}"
+    if OPEN in page.sections and not any("assert" in c.source for c in sections.get(OPEN, []) if is_code(c)):
+        yield f"'{OPEN}' asserts that the derivation equals the helper"
+    if CHECK in page.sections and not any(marker(cell, MARKED) for cell in sections.get(CHECK, [])):
+        yield f"'{CHECK}' compares numbers in a cell marked # {MARKED}"
+    for heading, cells in sections.items():
+        for i, cell in enumerate(cells):
+            if is_panel(cell) and not any(map(figures, cells[:i])):
+                yield f"in '{heading}' a static figure stands before the panel"
+    yield from rules_of_the_exercises(joined(filter(is_text, sections.get(EXERCISES, []))), number, page)
+    text = joined(notebook.cells)
+    if text.count("<details>") != text.count("</details>"):
+        yield "every <details> is closed"
+
+
+def rules_of_the_exercises(text, number, page):
+    if not page.exercises:
+        return
+    parts = re.split(r"^### +", text, flags=re.MULTILINE)[1:]
+    titles = [part.splitlines()[0] for part in parts]
+    for kind in page.exercises:
+        if not any(title.endswith(f"({kind})") for title in titles):
+            yield f"an exercise '### Exercise {int(number)}.1 ({kind})'"
+    for i, (title, part) in enumerate(zip(titles, parts, strict=True), start=1):
+        if not title.startswith(f"Exercise {int(number)}.{i} ("):
+            yield f"exercise {i} is called '### Exercise {int(number)}.{i} (...)', not '{title}'"
+        for fold in ("Hint", "Solution"):
+            if not re.search(rf"<details>\s*<summary>{fold}[^<]*</summary>\n\n", part):
+                yield f"'{title}': <details><summary>{fold}</summary>, then an empty line, then the text"
+
+
+def rules_of_the_cells(notebook, number, page):
+    if not any(map(is_code, notebook.cells)):
+        yield "there is code"
+    total = 0
+    for before, cell in zip([None, *notebook.cells], notebook.cells, strict=False):
+        if not is_code(cell):
+            continue
+        lines = code_lines(cell)
+        total += len(lines)
+        name = f"cell '{lines[0][:40] if lines else ''}'"
+        if before is None or not is_text(before):
+            yield f"{name}: a text cell stands before it"
+        if not lines:
+            yield f"{name} is empty"
+        if len(lines) > CELL_LINES:
+            yield f"{name}: {len(lines)} lines, limit {CELL_LINES}"
+        for word in FORBIDDEN_MARKERS:
+            if marker(cell, word):
+                yield f"{name}: {word} hides what is printed; write '# not compared: reason'"
+    if not page.code_lines[0] <= total <= page.code_lines[1]:
+        yield f"{page.code_lines[0]} to {page.code_lines[1]} lines of code, not {total}"
+    importing = [cell for cell in notebook.cells if is_code(cell) and re.search(r"^(import|from) ", cell.source, re.M)]
+    if len(importing) > 1:
+        yield "one cell imports, not " + str(len(importing))
+    if "plt.subplots(" in joined(filter(is_code, notebook.cells)) and not any(COLOURS in cell.source for cell in importing):
+        yield f"a page that draws by itself sets the colours of the suite where it imports: {COLOURS}"
+
+
+def rules_of_the_figures(notebook, number, page):
+    shown = 0
+    for cell, after in zip(notebook.cells, [*notebook.cells[1:], None], strict=True):
+        if not figures(cell):
+            continue
+        shown += 1
+        label = f"**Figure {int(number)}.{shown}.**"
+        if figures(cell) > 1:
+            yield f"one figure a cell; there are {figures(cell)} before {label}"
+        if after is None or not is_text(after) or not after.source.startswith(label):
+            yield f"the text cell after a figure starts with {label}"
+        elif len(prose(after)) - 2 < FIGURE_WORDS:
+            yield f"{label} says in at least {FIGURE_WORDS} words what is to be seen"
+
+
+def rules_of_the_outputs(notebook, number, page):
+    counts = [cell.execution_count for cell in notebook.cells if is_code(cell)]
+    if counts != [*range(1, len(counts) + 1)]:
+        yield "stored by tools/notebooks.py: all cells executed once, in order"
+    if "widgets" in notebook.metadata:
+        yield "no stored widget state"
+    for cell in filter(is_code, notebook.cells):
+        name = f"cell '{cell.source.splitlines()[0][:40] if cell.source else ''}'"
+        marked, exempt = marker(cell, MARKED), bool(EXEMPT.search(cell.source))
+        if prints(cell) and not marked and not exempt:
+            yield f"{name} prints: mark it '# {MARKED}' or '# not compared: reason'"
+        for line in "".join(out.text for out in cell.outputs if out.get("name") == "stdout").splitlines():
+            if len(line) > PRINTED_LETTERS:
+                yield f"{name} prints {len(line)} letters in a line, limit {PRINTED_LETTERS}: '{line[:30]}'"
+        if (marked or exempt) and not prints(cell):
+            yield f"{name} is marked but prints nothing"
+        if marked and exempt:
+            yield f"{name} is marked both for comparison and as not compared"
+        for out in cell.outputs:
+            if out.output_type == "error":
+                yield f"{name}: no stored error"
+            if out.get("name") == "stderr":
+                yield f"{name}: no stored warning"
+            if any(mime.startswith(WIDGET) for mime in out.get("data", {})):
+                yield f"{name}: no stored widget view"
+            if MACHINE_PATH.search(str(out.get("text", "")) + str(out.get("data", {}).get("text/plain", ""))):
+                yield f"{name}: no path of a machine"
+
+
+def rules_of_the_links(notebook, number, page, path):
+    text = re.sub(r"```.*?```|`[^`\n]*`", "", joined(filter(is_text, notebook.cells)), flags=re.DOTALL)
+    for target in [*re.findall(r"\]\(<?([^)>\s]+)>?[^)]*\)", text), *re.findall(r"(?:src|href)=\"([^\"]+)\"", text)]:
+        local = target.split("#")[0]
+        if local and not re.match(r"\w+:", target) and not (path.parent / local).exists():
+            yield f"link to {target}: no such file"
+    following = [other.name for other in sorted(path.parent.glob("[0-9][0-9]_*.ipynb")) if other.name[:2] > number]
+    if following and number != TEMPLATE_NUMBER and not re.search(rf"\*\*Next:\*\* \[[^]]+\]\({following[0]}\)", text):
+        yield f"'**Next:** [title]({following[0]})' leads on"
+
+
+def broken_rules(notebook, path):
+    """One line for each rule that the notebook breaks."""
+    number = TEMPLATE_NUMBER if path.name == TEMPLATE.name else path.name[:2]
+    page = PAGES.get(number, Page())
+    groups = (
+        rules_of_the_page,
+        rules_of_the_sections,
+        rules_of_the_cells,
+        rules_of_the_figures,
+        rules_of_the_outputs,
+    )
+    found = [line for group in groups for line in group(notebook, number, page)]
+    return found + [*rules_of_the_links(notebook, number, page, path)]
+
+
+# ---- the notebooks obey
+
+
+@pytest.mark.parametrize("path", [*NUMBERED, TEMPLATE], ids=lambda path: path.name)
+def test_notebook_obeys_the_rules(path):
+    assert path.stat().st_size < FILE_BYTES, f"limit {FILE_BYTES / 1000:.0f} kB"
+    text = path.read_text(encoding="utf-8")
+    nbformat.validate(nbformat.reads(text, as_version=nbformat.NO_CONVERT))
+    notebook = nbformat.reads(text, as_version=4)
+    assert '"application/vnd.jupyter.widget' not in text
+    assert broken_rules(notebook, path) == []
+
+
+def test_the_course_is_complete():
+    numbers = [path.name[:2] for path in NUMBERED]
+    assert [n for n in COURSE if n not in numbers] == []
+
+
+def test_numbers_are_used_once():
+    numbers = [path.name[:2] for path in NUMBERED]
+    assert numbers == sorted(set(numbers))
+
+
+def test_printed_cells_are_compared():
+    """Counts, over all notebooks, what is printed against what is compared or openly left out."""
+    cells = [c for path in [*NUMBERED, TEMPLATE] for c in nbformat.read(path, as_version=4).cells if is_code(c)]
+    printing = [cell for cell in cells if prints(cell)]
+    compared = [cell for cell in printing if marker(cell, MARKED)]
+    exempt = [cell for cell in printing if EXEMPT.search(cell.source)]
+    assert len(compared) + len(exempt) == len(printing)
+    assert len(exempt) < len(compared), "most of what is printed can be compared"
+
+
+# ---- and no rule is asleep: each of these breaks the template in one place
+
+
+def replace(old, new, kind=None):
+    def change(notebook):
+        cells = [c for c in notebook.cells if old in c.source and (kind is None or c.cell_type == kind)]
+        assert cells, f"the template no longer contains {old!r}"
+        cells[0].source = cells[0].source.replace(old, new)
+
+    return change
+
+
+def first(notebook, condition):
+    return next(cell for cell in notebook.cells if condition(cell))
+
+
+def drop_caption(notebook):
+    i = next(i for i, cell in enumerate(notebook.cells) if figures(cell))
+    notebook.cells[i + 1].source = "A picture."
+
+
+def short_caption(notebook):
+    i = next(i for i, cell in enumerate(notebook.cells) if figures(cell))
+    notebook.cells[i + 1].source = "**Figure 99.1.** It goes up."
+
+
+def drop_text_before_code(notebook):
+    second = [i for i, cell in enumerate(notebook.cells) if is_code(cell)][1]
+    del notebook.cells[second - 1]
+
+
+def swap_sections(notebook):
+    for cell in notebook.cells:
+        for a, b in ((CHECK, "SWAP"), (EXPLORE, CHECK), ("SWAP", EXPLORE)):
+            cell.source = re.sub(rf"^## {a}$", f"## {b}", cell.source, flags=re.MULTILINE)
+
+
+def panel_first(notebook):
+    i = next(i for i, cell in enumerate(notebook.cells) if is_panel(cell))
+    j = max(j for j in range(i) if figures(notebook.cells[j]))
+    notebook.cells[j].outputs = []
+
+
+def output(**fields):
+    def change(notebook):
+        first(notebook, is_code).outputs.append(nbformat.v4.new_output(**fields))
+
+    return change
+
+
+def stream(text, name="stdout"):
+    return output(output_type="stream", name=name, text=text)
+
+
+BREAKING = {
+    "another number": (replace("# 99 -", "# 98 -"), "the first line is the title"),
+    "no verb": (replace("# 99 - ", "# 99 - The"), "the first line is the title"),
+    "two titles": (replace(f"## {OPEN}", f"# {OPEN}"), "one first-level heading"),
+    "no question": (lambda nb: nb.cells[0].update(source=nb.cells[0].source.replace("?", ".")), "the question"),
+    "no section": (replace(f"## {THEORY}", "## Thoughts"), f"section '## {THEORY}'"),
+    "section order": (swap_sections, "sections stand in this order"),
+    "no time": (replace("**Time:**", "Time:"), "'**Time:**'"),
+    "raw reference": (replace(r"\tag{99.1}", r"\tag{99.1} \eqref{a}"), "JupyterLab shows"),
+    "too many words": (lambda nb: nb.cells[0].update(source=nb.cells[0].source + " word" * 1500), "words of text"),
+    "no symbol table": (replace("| symbol |", "| sign |"), "a symbol table"),
+    "no sketch": (replace("```", ""), "a sketch"),
+    "no equation number": (lambda nb: [c.update(source=c.source.replace(r"\tag{", "(")) for c in nb.cells], "numbered"),
+    "box not asserted": (lambda nb: [c.update(source=c.source.replace("assert", "print")) for c in nb.cells], OPEN),
+    "nothing checked": (lambda nb: [c.update(source=c.source.replace(f"# {MARKED}\n", "")) for c in nb.cells], CHECK),
+    "panel without figure": (panel_first, "a static figure stands before the panel"),
+    "no exercise of a kind": (replace("(extend)", "(more)"), "(extend)"),
+    "exercise number": (replace("Exercise 99.2", "Exercise 99.7"), "exercise 2 is called"),
+    "no hint": (replace("<summary>Hint", "<summary>Idea"), "<summary>Hint"),
+    "no empty line": (replace("</summary>\n\n", "</summary>\n"), "then an empty line"),
+    "open fold": (replace("</details>", ""), "every <details> is closed"),
+    "no text before code": (drop_text_before_code, "a text cell stands before it"),
+    "long cell": (lambda nb: first(nb, is_code).update(source="x = 1\n" * 16), "16 lines"),
+    "empty cell": (lambda nb: first(nb, is_code).update(source="# NBVAL_CHECK_OUTPUT\n"), "is empty"),
+    "hidden output": (lambda nb: first(nb, is_code).update(source="# NBVAL_SKIP\nx = 1"), "NBVAL_SKIP"),
+    "too much code": (lambda nb: nb.cells.extend(copy.deepcopy(nb.cells) * 3), "lines of code"),
+    "second import": (replace("print(", "import os\nprint(", "code"), "one cell imports"),
+    "own colours": (replace(f"{COLOURS}  # colours of the suite", "", "code"), "sets the colours of the suite"),
+    "long line": (stream("x" * 101 + "\n"), "prints 101 letters"),
+    "no caption": (drop_caption, "the text cell after a figure"),
+    "short caption": (short_caption, "at least 12 words"),
+    "two figures": (lambda nb: (c := first(nb, figures)).update(outputs=c.outputs * 2), "one figure a cell"),
+    "not executed": (lambda nb: first(nb, is_code).update(execution_count=None), "all cells executed"),
+    "widget state": (lambda nb: nb.metadata.update(widgets={}), "no stored widget state"),
+    "widget view": (output(output_type="display_data", data={WIDGET + "view+json": {}}), "no stored widget view"),
+    "unmarked print": (stream("hello\n"), "prints: mark it"),
+    "silent mark": (lambda nb: first(nb, prints).update(outputs=[]), "marked but prints nothing"),
+    "double mark": (replace(f"# {MARKED}", f"# {MARKED}\n# not compared: why", "code"), "marked both"),
+    "error": (output(output_type="error", ename="E", evalue="", traceback=[]), "no stored error"),
+    "warning": (stream("careful", "stderr"), "no stored warning"),
+    "machine path": (stream("/home/someone/x.csv\n"), "no path of a machine"),
+    "dead link": (replace("## References", "## References\n[a](no.md)"), "no such file"),
+}
+
+
+@pytest.mark.parametrize("name", BREAKING)
+def test_a_broken_rule_is_noticed(name):
+    notebook = nbformat.read(TEMPLATE, as_version=4)
+    change, message = BREAKING[name]
+    change(notebook)
+    found = broken_rules(notebook, TEMPLATE)
+    assert any(message in line for line in found), found
+
+
+def test_next_leads_to_the_next_notebook_that_exists(tmp_path):
+    for name in ("03_a.ipynb", "06_b.ipynb", "08_c.ipynb"):
+        (tmp_path / name).touch()
+    cell = nbformat.v4.new_markdown_cell("**Next:** [08 - Compare](08_c.ipynb)")
+    notebook = nbformat.v4.new_notebook(cells=[cell])
+    assert [*rules_of_the_links(notebook, "06", Page(), tmp_path / "06_b.ipynb")] == []
+    assert [*rules_of_the_links(notebook, "08", Page(), tmp_path / "08_c.ipynb")] == []
+    assert "06_b.ipynb" in [*rules_of_the_links(notebook, "03", Page(), tmp_path / "03_a.ipynb")][0]

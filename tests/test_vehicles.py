@@ -1,0 +1,234 @@
+"""The car against the paper's Table 2, against statics by hand, and against rigid-body motion."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import railbridge as rb
+from railbridge.cases import shelf
+from railbridge.vehicles import CAR_PARAMETERS, Body, Spring, Vehicle, planar_car, two_bogie_car
+
+CAR = rb.vehicle("xia2000")
+PARAMETERS = shelf.read_parameters(shelf.data_file("vehicles", "xia2000"), CAR_PARAMETERS)
+NATURAL = [
+    0.6451, 1.2138, 1.2298, 1.3345, 1.6768, 9.0444, 9.0552, 11.7201, 11.7201, 15.4791, 15.4824, 21.9588, 21.9589, 24.9903,
+    24.9903,
+]  # fmt: skip
+PRINTED = [0.645, 1.215, 1.230, 1.334, 1.667, 9.044, 9.055, 11.72, 11.72, 15.48, 15.48, 21.96, 21.96, 24.99, 24.99]
+DAMPED = [
+    (0.648, 0.067), (1.217, 0.244), (1.227, 0.211), (1.338, 0.103), (1.684, 0.129), (9.016, 0.252), (9.021, 0.248),
+    (11.72, 0.186), (11.72, 0.186), (15.485, 0.494), (15.494, 0.494), (21.90, 0.100), (21.90, 0.100), (24.99, 0.059),
+    (24.99, 0.059),
+]  # fmt: skip
+
+
+def test_natural_frequencies():
+    found = CAR.modes().frequencies_hz
+    assert found == pytest.approx(NATURAL, rel=1e-4)
+    pitch = 4
+    for i, (ours, printed) in enumerate(zip(found, PRINTED, strict=True)):
+        assert ours == pytest.approx(printed, rel=6e-3 if i == pitch else 1.1e-3), i
+    assert CAR.modes().names[3] == "car z" and CAR.modes().names[pitch] == "car pitch"
+
+
+def test_damped_modes():
+    modes = CAR.damped_modes()
+    assert modes.frequencies_hz == pytest.approx([f for f, _ in DAMPED], rel=1e-3)
+    assert modes.damping_ratios == pytest.approx([z for _, z in DAMPED], abs=6e-4)
+
+
+def test_matrices_are_symmetric_and_definite():
+    for matrix in (CAR.mass_matrix, CAR.damping_matrix, CAR.stiffness_matrix):
+        assert matrix.shape == (15, 15)
+        assert np.array_equal(matrix, matrix.T)
+    assert np.linalg.eigvalsh(CAR.stiffness_matrix)[0] > 0
+    assert np.linalg.eigvalsh(CAR.mass_matrix)[0] > 0
+    shapes = CAR.modes().shapes
+    assert shapes.T @ CAR.mass_matrix @ shapes == pytest.approx(np.eye(15), abs=1e-9)
+
+
+def test_weight_and_static_loads():
+    assert CAR.weight == pytest.approx(585.76e3, rel=1e-5)
+    assert [c.static_load for c in CAR.contacts] == pytest.approx([585.76e3 / 8] * 8, rel=1e-5)
+    heavy = replace(CAR, static_wheelset_mass=1000.0)
+    assert sum(c.static_load for c in heavy.contacts) == pytest.approx(CAR.weight + 4 * 9810.0)
+    assert heavy.weight == pytest.approx(CAR.weight + 4 * 9810.0)
+
+
+def test_wheels_are_ordered_front_to_back_left_before_right():
+    places = [(c.x, c.y) for c in CAR.contacts]
+    assert [x for x, _ in places] == pytest.approx(np.repeat([9.05, 6.55, -6.55, -9.05], 2))
+    assert [y for _, y in places] == pytest.approx([0.98, -0.98] * 4)
+    assert [c.body for c in CAR.contacts] == ["front bogie"] * 4 + ["rear bogie"] * 4
+
+
+def test_off_centre_body_loads_the_near_side_more():
+    body = replace(CAR.bodies[0], position=(0.5, 0.1, 1.41))
+    loads = np.array([c.static_load for c in replace(CAR, bodies=(body, *CAR.bodies[1:])).contacts])
+    x, y = (np.array([getattr(c, a) for c in CAR.contacts]) for a in ("x", "y"))
+    assert loads.sum() == pytest.approx(CAR.weight)
+    # Moments about the middle: only the car body stands off it.
+    assert loads @ x == pytest.approx(0.5 * 50990 * 9.81)
+    assert loads @ y == pytest.approx(0.1 * 50990 * 9.81)
+
+
+def motion_of(car, translation=(0, 0), roll=0.0, pitch=0.0, yaw=0.0):
+    """Freedoms and support motion when car and track move as one rigid body."""
+    x = np.zeros(len(car.labels))
+    for i, label in enumerate(car.labels):
+        body, freedom = label.rsplit(" ", 1)
+        px, py, pz = next(b.position for b in car.bodies if b.name == body)
+        x[i] = {
+            "y": translation[0] - roll * pz + yaw * px, "z": translation[1] + roll * py - pitch * px,
+            "roll": roll, "pitch": pitch, "yaw": yaw,
+        }[freedom]  # fmt: skip
+    support = [
+        (translation[0] + yaw * c.x, translation[1] + roll * c.y - pitch * c.x) for c in car.contacts
+    ]  # wheels at rail level, z = 0
+    return x, np.array(support).ravel()
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [{"translation": (1, 0)}, {"translation": (0, 1)}, {"roll": 1.0}, {"pitch": 1.0}, {"yaw": 1.0}],
+)
+def test_a_rigid_motion_of_car_and_track_stretches_nothing(motion):
+    x, support = motion_of(CAR, **motion)
+    k = CAR.contact_stiffness.ravel()
+    rows = CAR._contact_rows()[0]
+    assert rows @ x == pytest.approx(support, abs=1e-12)
+    assert CAR.stiffness_matrix @ x == pytest.approx(rows.T @ (k * support), rel=1e-9, abs=1e-3)
+    # Statically no force on the deck; the transfer function agrees at zero frequency.
+    assert CAR.transfer(0.0) @ support == pytest.approx(np.zeros(16), abs=1e-4)
+
+
+def test_at_high_frequency_bodies_stand_still_and_the_primaries_answer():
+    transfer = CAR.transfer(1e5)
+    k, c = CAR.contact_stiffness.ravel(), CAR.contact_damping.ravel()
+    assert np.diag(transfer) == pytest.approx(-(k + 2j * np.pi * 1e5 * c), rel=1e-3)
+
+
+def test_transfer_is_the_limit_of_the_sampled_response():
+    f, h, n = 3.1, 2e-4, 100_000
+    rng = np.random.default_rng(1)
+    amplitude = rng.normal(size=16) + 1j * rng.normal(size=16)
+    k, c = CAR.contact_stiffness.ravel(), CAR.contact_damping.ravel()
+    t = h * np.arange(n)
+    wave = np.exp(2j * np.pi * f * t)
+    u = (((k + 2j * np.pi * f * c) * amplitude)[:, None] * wave).imag
+    force = CAR.system().sampled(h)(u)[:, -2000:] - u[:, -2000:]
+    steady = ((CAR.transfer(f) @ amplitude)[:, None] * wave[-2000:]).imag
+    assert force == pytest.approx(steady, abs=1e-5 * np.abs(steady).max())
+
+
+def test_planar_car_of_the_data_file_is_the_car_s_plane():
+    shipped, made = rb.vehicle("xia2000_planar"), rb.planar_car(CAR)
+    assert shipped.modes().frequencies_hz == pytest.approx(made.modes().frequencies_hz, rel=1e-12)
+    assert shipped.stiffness_matrix == pytest.approx(made.stiffness_matrix)
+    assert shipped.damping_matrix == pytest.approx(made.damping_matrix)
+    assert [c.static_load for c in shipped.contacts] == pytest.approx([CAR.weight / 4] * 4)
+    # Its modes are the bounce and pitch modes of the whole car.
+    for f in made.modes().frequencies_hz:
+        assert np.min(np.abs(CAR.modes().frequencies_hz - f)) < 1e-9 * f
+    assert rb.planar_car(rb.vehicle("sprung_mass")).labels == ("mass z",)
+
+
+def test_springs_in_series_by_hand():
+    ks, kt, m = 4 * 1060e3, 8 * 2976e3, 50990.0
+    assert np.sqrt(ks * kt / (ks + kt) / m) / 2 / np.pi == pytest.approx(1.337, abs=5e-4)
+    assert np.sqrt(ks / m) / 2 / np.pi == pytest.approx(1.451, abs=5e-4)
+    rigid_primary = two_bogie_car("stiff", **{**PARAMETERS, "primary_vertical_stiffness": 1e13})
+    assert frequency_of(rigid_primary, "car z") == pytest.approx(1.451, abs=5e-4)
+
+
+def frequency_of(car, name):
+    modes = car.modes()
+    return modes.frequencies_hz[modes.names.index(name)]
+
+
+def test_exercises_with_checked_answers():
+    heavier = {k: v * 1.3 if k.startswith("car_body") and "above" not in k else v for k, v in PARAMETERS.items()}
+    car = two_bogie_car("heavier", **heavier)
+    assert frequency_of(car, "car z") == pytest.approx(1.171, abs=6e-4)
+    assert car.modes().frequencies_hz[0] == pytest.approx(0.566, abs=6e-4)
+    swapped = {**PARAMETERS, "primary_half_width": 1.12, "secondary_half_width": 0.98}
+    assert np.min(np.abs(two_bogie_car("swapped", **swapped).modes().frequencies_hz - 16.92)) < 0.01
+    reversed_ = two_bogie_car("reversed", **{**PARAMETERS, "primary_below_bogie": -0.07})
+    assert reversed_.modes().frequencies_hz[0] == pytest.approx(0.651, abs=6e-4)
+
+
+def test_sprung_mass_closed_form():
+    mass, stiffness, damping = 5750.0, 1.595e6, 2e4
+    car = rb.sprung_mass("m", mass, stiffness, damping)
+    w = np.sqrt(stiffness / mass)
+    assert car.modes().frequencies_hz == pytest.approx([w / 2 / np.pi])
+    assert car.damped_modes().damping_ratios == pytest.approx([damping / 2 / mass / w])
+    s = 2j * np.pi * 2.0
+    z = stiffness + damping * s
+    assert car.transfer(2.0)[1, 1] == pytest.approx(z**2 / (mass * s**2 + z) - z)
+    assert car.transfer(2.0)[1, 1] == pytest.approx(-mass * s**2 * z / (mass * s**2 + z))
+    assert rb.vehicle("sprung_mass").contacts[0].static_load == pytest.approx(5750 * 9.81)
+
+
+def test_a_damper_can_overdamp_a_mode():
+    car = rb.sprung_mass("m", 100.0, 1e4, 5e3)
+    modes = car.damped_modes()
+    assert modes.damping_ratios == pytest.approx([1.0, 1.0])
+    roots = np.sort(np.abs(np.roots([100.0, 5e3, 1e4]))) / 2 / np.pi
+    assert modes.frequencies_hz == pytest.approx(roots)
+
+
+def test_one_spring_object_may_be_used_twice():
+    leg = rb.Spring("mass", "rail", (0.0, 0.0, 0.0), (0.0, 1e5), (0.0, 0.0))
+    body = rb.Body("mass", 100.0, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), ("z",))
+    car = rb.Vehicle("twice", (body,), (leg, leg), 5.0)
+    assert [c.static_load for c in car.contacts] == pytest.approx([490.5, 490.5])
+    assert car.modes().frequencies_hz == pytest.approx([np.sqrt(2e5 / 100) / 2 / np.pi])
+
+
+def test_the_ends_of_a_spring_may_be_given_either_way():
+    turned = tuple(rb.Spring(s.to, s.from_, s.at, s.stiffness, s.damping) for s in CAR.springs)
+    other = replace(CAR, springs=turned)
+    assert other.stiffness_matrix == pytest.approx(CAR.stiffness_matrix)
+    assert other.transfer(3.0) == pytest.approx(CAR.transfer(3.0))
+    assert other.contacts == CAR.contacts
+
+
+@given(factor=st.floats(0.1, 10.0), seed=st.integers(0, 99))
+@settings(max_examples=20)
+def test_forces_scale_with_the_car(factor, seed):
+    """Masses, springs and dampers all times a factor: the same frequencies, forces times the factor."""
+    scaled = {
+        k: v * factor if any(w in k for w in ("mass", "inertia", "stiffness", "damping")) else v for k, v in PARAMETERS.items()
+    }
+    car = two_bogie_car("scaled", **scaled)
+    assert car.modes().frequencies_hz == pytest.approx(NATURAL, rel=2e-4)
+    r = np.random.default_rng(seed).normal(size=16)
+    assert car.transfer(2.0) @ r == pytest.approx(factor * CAR.transfer(2.0) @ r, rel=1e-6)
+
+
+def test_frames_have_units():
+    assert list(CAR.modes().to_frame().columns) == ["frequency (Hz)", "damping ratio", "moves most"]
+    assert len(CAR.damped_modes().to_frame()) == 15
+
+
+def test_a_vehicle_that_tips_over_is_refused():
+    body = Body("mass", 1e4, (1e4, 1e5, 1e5), (6.0, 0.0, 1.0), ("z", "pitch"))
+    springs = tuple(Spring("mass", "rail", (x, 0.0, 0.0), (0.0, 1e6), (0.0, 1e3)) for x in (3.0, -3.0))
+    with pytest.raises(rb.InputError, match=r"wheel at x = -3, y = 0 m.*tips over"):
+        Vehicle("eccentric", (body,), springs, 10.0)
+
+
+def test_planar_car_leaves_lateral_springs_out():
+    bumper = Spring("car", "rail", (0.0, 0.0, 0.5), (1e5, 0.0), (0.0, 0.0))
+    with_bumper = replace(CAR, springs=(*CAR.springs, bumper))
+    assert planar_car(with_bumper).modes().frequencies_hz == pytest.approx(planar_car(CAR).modes().frequencies_hz)
+
+
+def test_matrices_are_kept_and_cannot_be_changed():
+    for matrix in (CAR.mass_matrix, CAR.stiffness_matrix, CAR.damping_matrix, CAR.contact_stiffness, CAR.contact_damping):
+        with pytest.raises(ValueError, match="read-only"):
+            matrix[0, 0] = 1.0

@@ -1,0 +1,119 @@
+"""The identification: its stored result, its pairing, its derivatives, and what it refuses."""
+
+import numpy as np
+import pytest
+
+import railbridge as rb
+from railbridge.boxes.girder import BoxMesh
+from railbridge.errors import InputError
+from railbridge.validation import identification as ident
+from railbridge.validation.paper import TABLE2_DECK
+
+TINY = BoxMesh(12, 2, 4, 2)
+
+
+@pytest.fixture(scope="module")
+def fit():
+    return ident.identified()
+
+
+@pytest.fixture(scope="module")
+def best():
+    return ident.stored()["best"]
+
+
+def middle():
+    return {u.name: (u.low + u.high) / 2 for u in ident.UNKNOWNS}
+
+
+def test_the_stored_box_is_solved_again(fit, best):
+    """One solution gives the frequencies that are stored."""
+    assert fit.frequencies_hz == pytest.approx(best["frequencies_hz"], abs=2e-4)
+    assert fit.rms() == pytest.approx(best["rms_first_ten_percent"], abs=1e-3)
+    assert list(fit.names) == best["names"]
+
+
+def test_it_reaches_what_was_asked(fit):
+    """Below 4 % over the first ten; mass per metre within 10 % of Table 4's; within the bounds."""
+    assert fit.rms() < 4.0
+    assert fit.mass == pytest.approx(ident.MASS, rel=0.1)
+    for unknown in ident.UNKNOWNS:
+        assert unknown.low - 1e-9 <= fit.values[unknown.name] <= unknown.high + 1e-9, unknown.name
+
+
+def test_deck_file_is_the_stored_box(best):
+    drawn = rb.box(ident.SINGLE)
+    fitted = ident.box_of(best["values"], best["inner_diaphragms"])
+    for key in ("spans", "tracks", "density", "poisson_ratio", "inner_diaphragms", "slab_width", "depth", "web_spacing"):
+        assert getattr(drawn, key) == getattr(fitted, key)
+    assert drawn.bottom_spacing == pytest.approx(fitted.bottom_spacing)
+    for ours, theirs in zip(drawn.bearings, fitted.bearings, strict=True):
+        assert ours.stiffness == pytest.approx(theirs.stiffness, rel=1e-5)
+        assert (ours.fixed, ours.drop) == (theirs.fixed, theirs.drop)
+
+
+def test_identified_deck_crosses_and_says_what_it_is():
+    deck = rb.deck(ident.SINGLE)
+    text = (rb.data_root() / "decks" / f"{ident.SINGLE}.toml").read_text()
+    assert "identified, not known" in text
+    assert deck.recovery is not None and deck.tracks == {"left": 2.4, "right": -2.4}
+    run = rb.cross(rb.AxleTrain((0.0,), (150e3,)), deck, speed=20.0, track_offset="left")
+    sag = np.abs(run.displacement(18.0)["displacement_z"]).max()
+    assert 1e-4 < sag < 1e-2
+
+
+def test_reproduction_deck_is_untouched():
+    assert rb.deck("viaduct36").frequencies_hz[0] == pytest.approx(3.307, abs=1e-3)
+
+
+def test_stored_result_tells_spread_and_what_is_open():
+    result = ident.stored()
+    assert result["label"] == "identified, not known"
+    values = np.array(result["singular_values"])
+    assert np.all(np.diff(values) <= 0) and values[0] > 100 * values[-1]
+    directions = np.array([list(d.values()) for d in result["directions"]])
+    assert directions @ directions.T == pytest.approx(np.eye(len(ident.UNKNOWNS)), abs=0.01)
+    assert len(result["coarse"]) >= 4 and {f["inner_diaphragms"] for f in result["coarse"]} == {0, 2}
+    assert min(f["rms_first_ten_percent"] for f in result["alternatives"]) > 0
+
+
+def test_modes_are_paired_by_shape():
+    """A soft, deep, narrow box puts lateral before vertical bending: each family still finds its own mode."""
+    box = ident.box_of(middle() | {"slab_width": 8.6, "depth": 2.6, "web_spacing": 4.0})
+    shell = box.shell(TINY)
+    modes = shell.modes(20)
+    found = ident.families(shell, modes, 36.0)
+    assert set(found) == set(ident.FAMILIES) and len(set(found.values())) == 5
+    for family, kind in (("vertical 1", "vertical"), ("lateral 1", "lateral"), ("torsion 1", "torsion")):
+        assert modes.shares[kind][found[family]] > 0.5
+    for hypothesis, places in ident.HYPOTHESES.items():
+        _, which = ident.solved(box, hypothesis, TINY)
+        assert len(set(which.tolist())) == len(TABLE2_DECK)
+        assert [which[p] for p in places] == [found[f] for f in ident.FAMILIES]
+
+
+def test_lengthwise_bearing_makes_the_pair():
+    """Softer lengthwise bearings lower the axial-bending mode and leave the first vertical bending."""
+    study = ident.bearing_study(rb.box(ident.SINGLE), TINY)
+    fitted, soft, rigid = study["as identified"], study["soft (1 MN/m)"], study["rigid"]
+    assert soft["vertical 2"] > fitted["vertical 2"] + 0.5
+    assert rigid["axial-bending 1"] >= fitted["axial-bending 1"] - 1e-6
+    assert soft["vertical 1"] == pytest.approx(fitted["vertical 1"], rel=0.03)
+
+
+def test_table_shows_shell_and_beam(fit):
+    beam = ident.beam_frequencies(rb.box(ident.SINGLE))
+    frame = ident.table(fit, beam)
+    assert len(frame) == 15 and frame["beam (Hz)"].notna().sum() == 5
+    assert beam["vertical 1"][1] > 0.95 and beam["vertical 1"][0] == pytest.approx(fit.frequencies_hz[0], rel=0.05)
+
+
+def test_missing_result_names_the_command(monkeypatch, tmp_path):
+    monkeypatch.setenv("RAILBRIDGE_DATA", str(tmp_path))
+    with pytest.raises(InputError, match="make identify"):
+        ident.stored()
+
+
+def test_unknown_hypotheses_are_refused():
+    with pytest.raises(InputError, match="as ordered"):
+        ident.evaluate(middle(), hypothesis="by order", mesh=TINY)

@@ -1,0 +1,217 @@
+"""The paper's case: what `make reproduce` writes, within the limits that the project set itself beforehand."""
+
+import json
+
+import numpy as np
+import pytest
+
+import railbridge as rb
+from railbridge.trains import LOADS
+from railbridge.validation import paper
+
+# The 15 natural frequencies of the car, Hz, computed by an independent script from Table 1.
+VEHICLE = (
+    0.6451, 1.2138, 1.2298, 1.3345, 1.6768, 9.0444, 9.0552, 11.7201, 11.7201, 15.4791, 15.4824, 21.9588, 21.9589, 24.9903,
+    24.9903,
+)  # fmt: skip
+PITCH = 4  # mode 5 of Table 2, probably misprinted
+VERTICAL = ("Vertical bending moment", "Vertical displacement", "Z-reaction in node 1", "Z-reaction in node 2")
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """What `python -m railbridge.paper` prints and writes, run once."""
+    folder = tmp_path_factory.mktemp("reproduce")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        lines = []
+        patch.setattr("builtins.print", lambda *parts: lines.append(" ".join(map(str, parts))))
+        paper.main()
+    return "\n".join(lines), folder / "build"
+
+
+@pytest.fixture(scope="module")
+def numbers(written):
+    return json.loads((written[1] / "reproduction.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def sweep():
+    return paper.readings()
+
+
+# ---- build/reproduction.json
+
+
+def test_file_is_complete_and_nothing_is_left_beside_it(numbers, written):
+    assert [path.name for path in written[1].iterdir()] == ["reproduction.json"]
+    assert set(numbers) >= {
+        "vehicle_frequencies_hz", "deck_frequencies_hz", "rayleigh", "bounce_force_amplitude_n", "deviation_percent", "table4",
+        "midspan_displacement_m",
+    }  # fmt: skip
+    assert set(numbers["deviation_percent"]) == set(numbers["table4"]) == set(LOADS)
+    for loads in LOADS:
+        assert set(numbers["deviation_percent"][loads]) == {"from_rigid", "from_previous"}
+        assert set(numbers["table4"][loads]) == {"rigid", "converged"}
+        for values in numbers["table4"][loads].values():
+            assert list(values) == list(paper.TABLE4)
+    for train in ("one_car", "eight_cars"):
+        assert set(numbers["midspan_displacement_m"][train]) == set(LOADS)
+
+
+def test_a_failed_run_leaves_the_old_file(tmp_path, monkeypatch):
+    (tmp_path / "build").mkdir()
+    old = tmp_path / "build" / "reproduction.json"
+    old.write_text("{}", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(paper, "compare", lambda *_: ())
+    monkeypatch.setattr(paper, "reproduce", lambda: {"not": object()})
+    with pytest.raises(TypeError):
+        paper.main()
+    assert old.read_text(encoding="utf-8") == "{}"
+    assert [path.name for path in old.parent.iterdir()] == ["reproduction.json"]
+
+
+def test_vehicle(numbers):
+    ours = np.array(numbers["vehicle_frequencies_hz"])
+    assert ours == pytest.approx(VEHICLE, rel=1e-4)
+    difference = np.abs(ours / paper.TABLE2_VEHICLE - 1)
+    assert difference[PITCH] < 6e-3
+    assert np.delete(difference, PITCH).max() < 1e-3
+
+
+def test_deck_modes_that_the_paper_names(numbers):
+    ours = numbers["deck_frequencies_hz"]
+    for name, printed in [("vertical bending 1", 3.307), ("lateral bending 1", 10.46), ("torsion 1", 14.97)]:
+        assert ours[name] == pytest.approx(printed, rel=3e-3)
+
+
+def test_damping_and_bounce_force(numbers):
+    assert numbers["rayleigh"] == pytest.approx({"alpha": 1.0364, "beta": 4.870e-4}, rel=5e-3)
+    assert numbers["bounce_force_amplitude_n"] == pytest.approx({"14.4": 75.8e3, "15.0": 81.0e3}, rel=5e-3)
+
+
+def test_deviations(numbers):
+    for loads in LOADS:
+        deviation = numbers["deviation_percent"][loads]
+        assert len(deviation["from_rigid"]) == len(deviation["from_previous"]) >= 4
+        assert deviation["from_rigid"][0] == pytest.approx(deviation["from_previous"][0])
+        assert abs(deviation["from_previous"][3]) < 0.01
+    assert 0.5 < numbers["deviation_percent"]["condensed"]["from_rigid"][0] < 3.0
+
+
+def test_vertical_rows_of_table_4(numbers):
+    for column, state in enumerate(("rigid", "converged"), start=1):
+        for row in VERTICAL:
+            ours, printed = numbers["table4"]["condensed"][state][row], paper.TABLE4[row][column]
+            assert ours == pytest.approx(printed, rel=0.06), row
+
+
+def test_what_condensing_costs(numbers):
+    """One car in one point is a third too much for the deck; in a train, neighbours stand together anyway."""
+    ratio = {train: d["condensed"] / d["wheels"] for train, d in numbers["midspan_displacement_m"].items()}
+    assert ratio["one_car"] == pytest.approx(1.33, abs=0.02)
+    assert ratio["eight_cars"] == pytest.approx(1.03, abs=0.02)
+    for d in numbers["midspan_displacement_m"].values():
+        assert d["bogies"] == pytest.approx(d["wheels"], rel=0.025)
+
+
+# ---- what is printed
+
+
+def test_printed_report_shows_every_table(written):
+    text = written[0]
+    for table in ("Table 2, vehicle", "Table 2, deck", "Table 3", "Table 4"):
+        assert table in text
+    for heading in ("ONE FORCE A CAR", "TWO FORCES A CAR", "TRUE WHEEL LOADS", "A GUESS"):
+        assert heading in text
+    assert "identified, not known" in text
+    assert max(map(len, text.splitlines())) < 140
+
+
+def test_every_printed_number_of_the_tables_is_compared():
+    rows = paper.compare()
+    printed = [*paper.TABLE2_VEHICLE, *paper.TABLE2_DECK, *paper.TABLE3["from_rigid"], *paper.TABLE3["from_previous"]]
+    printed += [value for row in paper.TABLE4.values() for value in row[1:]]
+    compared = [row.paper for row in rows if row.table.startswith("Table")]
+    assert sorted(compared) == sorted(printed)
+    text = {row.paper for row in rows if row.table.startswith("Section")}
+    assert text == {1.33, 3.31, 3.0}
+
+
+def test_every_sizeable_difference_has_a_reason():
+    for loads in LOADS:
+        for row in paper.compare(loads):
+            small = abs(row.difference_percent) < 0.11
+            assert small or row.why, row
+
+
+def test_rows_as_text_and_as_frame_agree():
+    rows = [
+        paper.Row("Table 4, x", "moment", "kN m", -10.0, 9.0, "because"),
+        paper.Row("Table 4, x", "reaction", "kN", 10.0, float("nan"), "because"),
+        paper.Row("Table 3, x", "iteration 1", "%", 1.0, 1.5),
+    ]
+    assert [row.difference for row in rows] == ["-10.00 %", "-", "+0.500"]
+    frame = paper.frame(iter(rows))
+    assert frame["difference"].tolist() == ["-10.00 %", "-", "+0.500"]
+    assert frame["suite"].tolist() == ["9.000", "-", "1.500"]
+    lines = paper.report(rows).splitlines()
+    assert lines[1].endswith("because") and lines[2].endswith('"'), "a reason that repeats is given once"
+
+
+# ---- scenarios, and what they can and cannot settle
+
+
+@pytest.mark.parametrize("name", paper.SCENARIOS)
+def test_scenarios_are_checked_cases(name):
+    made = paper.scenario(name, loads="condensed", iterations=1)
+    assert made.get("run.iterations") == 1
+    assert paper.case("paper").get("run.excitation") is None, "the guess is never the default"
+
+
+def test_wavelengths_follow_from_length_and_half_waves():
+    def waves(name):
+        return paper.scenario(name).track.rail("vertical", "left").wavelength
+
+    assert waves("paper") == waves("notch") == 14.4
+    assert waves("l37.5") == waves("paper reading") == pytest.approx(15.0)
+    assert waves("n11.7") == pytest.approx(2 * 36 / 11.7)
+
+
+def test_unknown_scenario_suggests_the_near_one():
+    with pytest.raises(rb.InputError, match="notch"):
+        paper.scenario("notsh")
+
+
+def test_readings_start_from_the_paper_case(sweep):
+    """The three cars of the sweep give the first deviation of all eight, so shortening costs nothing."""
+    asked = {"run.loads": "condensed", "run.excitation": "wheels", "run.feedback": "all", "wavelength": 14.4, "phase": 0.0}
+    found = [deviation for reading, deviation in sweep if reading == asked]
+    assert found == pytest.approx([paper.run().deviations.from_rigid[0]], abs=1e-9)
+
+
+def test_equation_3_alone_proves_nothing(sweep):
+    values = np.array([deviation for _, deviation in sweep])
+    assert len(values) == 64
+    assert values.min() < -1.0 and values.max() > 2.5
+    near = [reading for reading, deviation in sweep if abs(deviation - paper.TABLE3["from_rigid"][0]) < 0.2]
+    for key in ("run.loads", "run.excitation", "run.feedback", "wavelength", "phase"):
+        assert len({reading[key] for reading in near}) > 1, f"Eq. 3 does not even settle {key}"
+
+
+def test_mass_that_each_row_asks_for():
+    ours = paper.mass_needed(paper.run().at(0))
+    assert set(ours) == set(VERTICAL)
+    assert all(mass == pytest.approx(12000, rel=0.06) for row, mass in ours.items() if row != "Vertical displacement")
+    assert ours["Vertical displacement"] == pytest.approx(9460, rel=0.02), "this row does not agree with the others"
+    guess = paper.mass_needed(paper.run("paper reading").at(0))
+    assert all(mass == pytest.approx(11340, rel=0.05) for mass in guess.values())
+
+
+def test_mass_needed_is_the_mass_where_the_row_is_met(monkeypatch):
+    """Print our own moment as the paper's, and the mass asked for is the deck's own."""
+    crossing = paper.run()
+    ours = paper.table4(crossing)
+    monkeypatch.setattr(paper, "TABLE4", {k: (v[0], ours[k], ours[k]) for k, v in paper.TABLE4.items()})
+    assert list(paper.mass_needed(crossing).values()) == pytest.approx([12000.0] * 4)
