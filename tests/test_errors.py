@@ -1,5 +1,8 @@
 """Reading and checking what users bring."""
 
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -7,7 +10,7 @@ from hypothesis import strategies as st
 
 from railbridge import errors, units
 from railbridge.cases import shelf
-from railbridge.errors import InputError
+from railbridge.errors import InputError, Range
 
 
 def test_a_message_names_field_value_range_and_remedy():
@@ -84,10 +87,48 @@ def test_plain_turns_numpy_into_python_and_refuses_the_rest():
             errors.plain("x", wrong)
 
 
-def test_within_puts_the_path_in_front_once():
-    with pytest.raises(InputError) as error, errors.within("a"), errors.within("a.b"):
-        errors.number("c", "x")
-    assert error.value.field == "a.b.c"
+def test_within_says_where_a_field_stands_and_what_the_user_calls_it():
+    with pytest.raises(InputError) as error, errors.within("deck", {"bearings": "bearing"}, source="my.toml"):
+        with errors.within("bearings[2]"):
+            errors.number("x", "far")
+    assert error.value.field == "deck.bearing[2].x"
+    assert str(error.value).startswith("my.toml: deck.bearing[2].x = 'far': must be a finite number")
+
+
+def test_places_in_lists_count_from_1():
+    with pytest.raises(InputError) as error:
+        errors.numbers("loads", [1.0, -1.0], above=0.0)
+    assert error.value.field == "loads[2]"
+
+
+@dataclass(frozen=True)
+class Example:
+    size: Annotated[float, Range(above=0.0, unit="m")]
+    place: Annotated[tuple[float, float], Range(unit="m")] = (0.0, 0.0)
+    count: Annotated[int, Range(least=1, whole=True)] | None = None
+    side: Literal["left", "right"] = "left"
+    shown: bool = True
+    other: object = None
+
+    def __post_init__(self):
+        errors.check_fields(self)
+
+
+def test_a_dataclass_is_held_to_the_types_of_its_fields():
+    made = Example(np.float32(2), [1, 2])
+    assert (made.size, made.place, made.count) == (2.0, (1.0, 2.0), None)
+    assert type(made.size) is float and type(made.place) is tuple
+    for given, words in [
+        ({"size": 0}, "size = 0: must be a finite number above 0 m"),
+        ({"place": [1.0]}, "place = .*must hold 2 numbers"),
+        ({"place": [1.0, "x"]}, r"place\[2\] = 'x'"),
+        ({"count": 1.5}, "count = 1.5: must be a whole number"),
+        ({"count": 0}, "count = 0: .*at least 1"),
+        ({"side": "lef"}, "side = 'lef': must be one of left, right. Did you mean 'left'"),
+        ({"shown": 1}, "shown = 1: must be true or false"),
+    ]:
+        with pytest.raises(InputError, match=words):
+            Example(**{"size": 1.0, **given})
 
 
 def test_shipped_data_is_found_and_files_by_path(tmp_path):

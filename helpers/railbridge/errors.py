@@ -1,7 +1,12 @@
 """Refusals: what cannot be used is named, with its value, what is allowed and what to try.
 
-Every refusal is one :class:`InputError`, raised before any number is computed. All other modules check their input through
-this one.
+Every refusal is one :class:`InputError`, raised before any number is computed, in the words of whoever called: a function
+names its own argument. Who knows more of the way there (the table of a case file, say) puts it in front; see `within`.
+
+A path is written ``train.cars[2].vehicle``; places in lists count from 1, as cars, axles and wheels do.
+
+What a field of a dataclass may be stands in its type, as in ``speed: Annotated[float, Range(above=0.0, unit="m/s")]``.
+`check_fields` holds the dataclass to it, and the tables of case files are made from the same types.
 """
 
 from __future__ import annotations
@@ -9,13 +14,16 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import Any
+from dataclasses import dataclass, fields
+from functools import cache
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 __all__ = [
-    "InputError", "boolean", "choice", "did_you_mean", "frozen", "integer", "keys", "number", "numbers", "plain", "table",
-    "text", "within",
+    "InputError", "Range", "boolean", "check_fields", "choice", "did_you_mean", "field_types", "frozen", "integer", "joined",
+    "keys", "number", "numbers", "plain", "table", "text", "within",
 ]  # fmt: skip
 
 
@@ -25,20 +33,62 @@ class InputError(ValueError):
     Parameters
     ----------
     field : str
-        Path of the field as the user wrote it, for instance ``run.speed``.
+        Path of the field in the caller's words, for instance ``speed``, or ``run.speed`` in a case.
     value : object
         The offending value; ``None`` where something is missing altogether.
     allowed : str
         What would be accepted.
     remedy : str
         What to try.
+    source : str
+        The file or the named table that holds the field.
     """
 
-    def __init__(self, field: str, value: Any, allowed: str, remedy: str = "") -> None:
-        shown = "" if value is None else f" = {_short(value)}"
+    def __init__(
+        self, field: str, value: Any, allowed: str, remedy: str = "", source: str = ""
+    ) -> None:
+        place = ": ".join(part for part in (source, field) if part)
+        given = "" if value is None else f" = {_short(value)}"
         advice = f" {remedy}" + "." * (not remedy.endswith("?")) if remedy else ""
-        super().__init__(f"{field}{shown}: {allowed}.{advice}")
+        super().__init__(f"{place}{given}: {allowed}.{advice}")
         self.field, self.value, self.allowed, self.remedy = field, value, allowed, remedy
+        self.source = source
+
+    def moved(
+        self, path: str = "", names: Mapping[str, str] | None = None, source: str = ""
+    ) -> InputError:
+        """Return the same refusal with the way there put in front; see `within`."""
+        head = self.field.partition(".")[0].partition("[")[0]
+        field = (names or {}).get(head, head) + self.field[len(head) :]
+        return InputError(
+            joined(path, field), self.value, self.allowed, self.remedy, source or self.source
+        )
+
+
+def joined(path: str, field: str) -> str:
+    """Return the path of a field of what stands at `path`; either may be empty."""
+    return f"{path}.{field}" if path and field and not field.startswith("[") else path + field
+
+
+@contextmanager
+def within(
+    path: str = "", names: Mapping[str, str] | None = None, source: str = ""
+) -> Iterator[None]:
+    """Say of any `InputError` raised inside where its field stands.
+
+    Parameters
+    ----------
+    path : str
+        Put in front: ``x`` becomes ``track.vertical.x`` below ``track.vertical``.
+    names : mapping, optional
+        What the user calls a field that the code inside calls otherwise: {"bearings": "bearing"}.
+    source : str
+        The file or named table that holds it all.
+    """
+    try:
+        yield
+    except InputError as error:
+        raise error.moved(path, names, source) from None
 
 
 def _short(value: Any) -> str:
@@ -46,93 +96,95 @@ def _short(value: Any) -> str:
         value = value.item()
     if isinstance(value, np.ndarray):
         value = value.tolist()
-    shown = repr(value)
-    return shown if len(shown) <= 60 else shown[:57] + "..."
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """Return ``Did you mean 'x'? `` for the nearest known word, or the list of all known words."""
+    """Return ``Did you mean 'x'?`` for the nearest known word, or the list of all known words."""
     known = sorted(known)
     near = difflib.get_close_matches(str(word), known, n=1, cutoff=0.5)
     return f"Did you mean '{near[0]}'?" if near else "Known: " + (", ".join(known) or "none")
 
 
-def number(
-    field: str,
-    value: Any,
-    *,
-    above: float | None = None,
-    least: float | None = None,
-    most: float | None = None,
-    unit: str = "",
-    remedy: str = "",
-) -> float:
-    """Return `value` as a finite float within its range, or raise `InputError`.
+# ---- numbers
 
-    Parameters
+
+@dataclass(frozen=True)
+class Range:
+    """What a number may be: finite, and within bounds.
+
+    Attributes
     ----------
-    field : str
-        Name for the message.
-    value : object
-        What the user gave; booleans and text are refused.
-    above, least, most : float, optional
+    above, least, most : float or None
         Exclusive lower bound, inclusive lower bound, inclusive upper bound.
     unit : str
-        Unit for the message.
     remedy : str
         What to try instead.
+    whole : bool
+        Whether only whole numbers will do.
     """
-    bounds = []
-    if above is not None:
-        bounds.append(f"above {above:g}")
-    if least is not None:
-        bounds.append(f"at least {least:g}")
-    if most is not None:
-        bounds.append(f"at most {most:g}")
-    unit = f" {unit}" if unit else ""
-    allowed = "must be a finite number" + (" " + " and ".join(bounds) + unit if bounds else unit)
-    # Only scalars: text, booleans and lists of one would pass float() too.
-    if not isinstance(value, (int, float, np.integer, np.floating)) or isinstance(value, bool):
-        raise InputError(field, value, allowed, remedy)
-    try:
-        result = float(value)
-    except OverflowError:
-        raise InputError(field, value, allowed, remedy) from None
-    if abs(result) < 1e-30:  # products of such numbers underflow, and those of numbers beyond 1e30 overflow
-        result = 0.0
-    outside = (
-        not abs(result) <= 1e30
-        or (above is not None and result <= above)
-        or (least is not None and result < least)
-        or (most is not None and result > most)
-    )
-    if outside:
-        raise InputError(field, value, allowed, remedy)
-    return result
+
+    above: float | None = None
+    least: float | None = None
+    most: float | None = None
+    unit: str = ""
+    remedy: str = ""
+    whole: bool = False
+
+    @property
+    def allowed(self) -> str:
+        """The range in words."""
+        bounds = [("above", self.above), ("at least", self.least), ("at most", self.most)]
+        words = " and ".join(f"{word} {bound:g}" for word, bound in bounds if bound is not None)
+        return " ".join(part for part in ("must be a finite number", words, self.unit) if part)
+
+    def checked(self, field: str, value: Any) -> float | int:
+        """Return `value` as a float (an int if whole) within the range, or raise `InputError`."""
+        # Only scalars: text, booleans and lists of one would pass float() too.
+        numeric = isinstance(value, (int, float, np.integer, np.floating))
+        try:
+            result = float(value) if numeric and not isinstance(value, bool) else np.nan
+        except OverflowError:
+            result = np.nan
+        if abs(result) < 1e-30:  # products of such numbers underflow, those beyond 1e30 overflow
+            result = 0.0
+        inside = (
+            abs(result) <= 1e30
+            and (self.above is None or result > self.above)
+            and (self.least is None or result >= self.least)
+            and (self.most is None or result <= self.most)
+        )
+        if not inside:
+            raise InputError(field, value, self.allowed, self.remedy)
+        if self.whole and result != int(result):
+            raise InputError(field, value, "must be a whole number", self.remedy)
+        return int(result) if self.whole else result
 
 
-def integer(field: str, value: Any, *, least: int = 0, most: int | None = None, remedy: str = "") -> int:
-    """Return `value` as an int within its range, or raise `InputError`."""
-    result = number(field, value, least=least, most=most, remedy=remedy)
-    if result != int(result):
-        raise InputError(field, value, "must be a whole number", remedy)
-    return int(result)
+def number(field: str, value: Any, **limits: Any) -> float:
+    """Return `value` as a finite float within limits (see `Range`), or raise `InputError`."""
+    return Range(**limits).checked(field, value)
+
+
+def integer(field: str, value: Any, *, least: int = 0, **limits: Any) -> int:
+    """Return `value` as an int within limits (see `Range`), or raise `InputError`."""
+    return Range(least=least, whole=True, **limits).checked(field, value)
 
 
 def numbers(field: str, values: Any, *, count: int | None = None, **limits: Any) -> np.ndarray:
-    """Return `values` as a 1-D float array, each entry checked by `number`, or raise `InputError`."""
+    """Return `values` as a 1-D float array, each within limits, or raise `InputError`."""
     if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
-        raise InputError(field, values, "must be a list of numbers" + (f" of length {count}" if count else ""))
-    result = [number(f"{field}[{i}]", v, **limits) for i, v in enumerate(values)]
+        length = f" of length {count}" if count else ""
+        raise InputError(field, values, f"must be a list of numbers{length}")
+    bounds = Range(**limits)
+    result = [bounds.checked(f"{field}[{i}]", v) for i, v in enumerate(values, start=1)]
     if count is not None and len(result) != count:
         raise InputError(field, values, f"must hold {count} numbers, it holds {len(result)}")
     return np.array(result, dtype=float)
 
 
-def frozen(array: np.ndarray) -> np.ndarray:
-    """Return the same array, read-only from now on: it is kept and handed out again, so nobody may change it."""
-    array.setflags(write=False)
-    return array
+# ---- other kinds of values
 
 
 def boolean(field: str, value: Any) -> bool:
@@ -153,7 +205,8 @@ def choice(field: str, value: Any, allowed: Iterable[str]) -> str:
     """Return `value` if it is one of `allowed`, or raise `InputError` that suggests the nearest."""
     allowed = list(allowed)
     if not isinstance(value, str) or value not in allowed:
-        raise InputError(field, value, "must be one of " + ", ".join(allowed), did_you_mean(value, allowed).rstrip("."))
+        near = did_you_mean(value, allowed).rstrip(".")
+        raise InputError(field, value, "must be one of " + ", ".join(allowed), near)
     return value
 
 
@@ -164,37 +217,125 @@ def table(field: str, value: Any) -> dict[str, Any]:
     return dict(value)
 
 
+def keys(
+    field: str, given: Mapping[str, Any], allowed: Iterable[str], required: Iterable[str] = ()
+) -> None:
+    """Refuse unknown keys of a table, with the nearest known one, and missing required keys."""
+    allowed = [*allowed, *(k for k in required if k not in allowed)]
+    for key in given:
+        if key not in allowed:
+            raise InputError(joined(field, key), None, "unknown key", did_you_mean(key, allowed))
+    for key in required:
+        if key not in given:
+            remedy = f"Add {key} to {field or 'the file'}"
+            raise InputError(joined(field, key), None, "is missing", remedy)
+
+
 def plain(field: str, value: Any, depth: int = 0) -> Any:
-    """Return a copy of a value made of tables, lists, texts, numbers and booleans only, NumPy's turned into Python's."""
+    """Return a copy made of tables, lists, texts, numbers and booleans only.
+
+    NumPy's numbers and arrays become Python's.
+    """
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
     if isinstance(value, (str, bool, int, float)):
         return value
     if depth < 20:
         if isinstance(value, Mapping):
-            return {k: plain(f"{field}.{k}" if field else str(k), v, depth + 1) for k, v in table(field, value).items()}
+            named = table(field, value).items()
+            return {k: plain(joined(field, k), v, depth + 1) for k, v in named}
         if isinstance(value, (list, tuple)):
-            return [plain(f"{field}[{i}]", v, depth + 1) for i, v in enumerate(value)]
-    raise InputError(field, value, "must be a number, a text, true or false, or a list or table of them")
+            return [plain(f"{field}[{i}]", v, depth + 1) for i, v in enumerate(value, start=1)]
+    allowed = "must be a number, a text, true or false, or a list or table of them"
+    raise InputError(field, value, allowed)
 
 
-def keys(field: str, given: Mapping[str, Any], allowed: Iterable[str], required: Iterable[str] = ()) -> None:
-    """Refuse unknown keys (with the nearest known one) and missing required keys of a table."""
-    allowed = [*allowed, *(k for k in required if k not in allowed)]
-    prefix = f"{field}." if field else ""
-    for key in given:
-        if key not in allowed:
-            raise InputError(prefix + key, None, "unknown key", did_you_mean(key, allowed))
-    for key in required:
-        if key not in given:
-            raise InputError(prefix + key, None, "is missing", f"Add {key} to {field or 'the file'}")
+def frozen(array: np.ndarray) -> np.ndarray:
+    """Return the same array, read-only from now on: it is kept and handed out again."""
+    array.setflags(write=False)
+    return array
 
 
-@contextmanager
-def within(path: str) -> Iterator[None]:
-    """Put a path before the field of any `InputError` raised inside: ``x`` becomes ``track.vertical.x``."""
-    try:
-        yield
-    except InputError as error:
-        known = error.field == path or error.field.startswith(f"{path}.") or error.field.startswith(f"{path}[")
-        raise InputError(error.field if known else f"{path}.{error.field}", error.value, error.allowed, error.remedy) from None
+# ---- fields of dataclasses
+
+
+@dataclass(frozen=True)
+class FieldType:
+    """What a field of a dataclass may be, read from its type.
+
+    Attributes
+    ----------
+    kind : {"number", "numbers", "choice", "boolean", "text", "other"}
+    range : Range
+        Of a number, or of each of several.
+    count : int or None
+        Of numbers; None for any.
+    choices : tuple of str
+    optional : bool
+        Whether None will do.
+    """
+
+    kind: str
+    range: Range = Range()
+    count: int | None = None
+    choices: tuple[str, ...] = ()
+    optional: bool = False
+
+    def checked(self, field: str, value: Any) -> Any:
+        """Return the value as the dataclass keeps it, or raise `InputError`."""
+        if (value is None and self.optional) or self.kind == "other":
+            return value
+        if self.kind == "number":
+            return self.range.checked(field, value)
+        if self.kind == "numbers":
+            found = numbers(field, value, count=self.count, **vars(self.range))
+            return tuple(found.tolist())
+        if self.kind == "choice":
+            return choice(field, value, self.choices)
+        return (boolean if self.kind == "boolean" else text)(field, value)
+
+
+@cache
+def field_types(kind: type) -> dict[str, FieldType]:
+    """Return what each field of a dataclass may be.
+
+    Understood are ``Annotated[float, Range(...)]``, ``Annotated[tuple[float, ...], Range(...)]`` (or
+    ``tuple[float, float]`` for two), ``Literal["a", "b"]``, ``bool``, ``str``, and ``| None`` of each; what is none of these
+    is left alone.
+    """
+    hints = get_type_hints(kind, include_extras=True)
+    return {f.name: _field_type(hints[f.name]) for f in fields(kind)}
+
+
+def _field_type(hint: Any) -> FieldType:
+    optional = False
+    if get_origin(hint) in (Union, UnionType):
+        parts = [part for part in get_args(hint) if part is not NoneType]
+        optional = len(parts) < len(get_args(hint))
+        if len(parts) > 1:
+            return FieldType("other", optional=optional)
+        hint = parts[0]
+    if get_origin(hint) is Annotated:
+        inner, *notes = get_args(hint)
+        bounds = next((note for note in notes if isinstance(note, Range)), None)
+        if bounds is not None:
+            inside = get_args(inner)
+            several = get_origin(inner) is tuple
+            count = len(inside) if several and inside[-1] is not Ellipsis else None
+            kind = "numbers" if several else "number"
+            return FieldType(kind, bounds, count, optional=optional)
+    if get_origin(hint) is Literal:
+        return FieldType("choice", choices=get_args(hint), optional=optional)
+    return FieldType({bool: "boolean", str: "text"}.get(hint, "other"), optional=optional)
+
+
+def check_fields(thing: Any) -> None:
+    """Hold a dataclass to the types of its fields, numbers as floats; for its ``__post_init__``.
+
+    Raises
+    ------
+    InputError
+        Naming the field.
+    """
+    for name, kind in field_types(type(thing)).items():
+        object.__setattr__(thing, name, kind.checked(name, getattr(thing, name)))
