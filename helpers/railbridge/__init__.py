@@ -20,9 +20,10 @@ its ``__init__``; what stands in a room is loaded when it is first asked for.
 from importlib import import_module as _import_module
 
 from .beams import Beam, Bearing
-from .crossing import Crossing, NotConvergedError, cross
+from .crossing import NotConvergedError, cross
 from .decks import Deck, History, rayleigh, rayleigh_ratio
 from .errors import InputError
+from .results import Crossing
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .tracks import FadeIn, Harmonic, Level, Notch, Rails, Table, Track
 from .trains import AxleTrain, Train, steady_forces

@@ -4,42 +4,85 @@ With forces F and deck motion w,
 
     F_0      wheel forces on a rigid deck (irregularity alone)
     w_i      deck motion under the loads made of F_i
-    F_(i+1)  = F_0 + response of the train to w_i met at each wheel (the "equivalent irregularity" is r + w_i)
+    F_(i+1)  = F_0 + response of the train to w_i met at each wheel
+             (the "equivalent irregularity" is r + w_i)
 
-repeated until F no longer changes. Because the train is linear, only the response to the deck's own motion is run again,
-and only while a car is on the deck. The deck is always felt by each wheel at its own place; `loads` decides how the forces
-act on the deck: as true wheel loads, as two resultants a car (per bogie), or as one resultant at the car's middle (the
-paper).
+repeated until F no longer changes. Because the train is linear, only the response to the deck's own
+motion is run again, and only while a car is on the deck. The deck is always felt by each wheel at
+its own place; `loads` decides how the forces act on the deck: as true wheel loads, as two
+resultants a car (per bogie), or as one resultant at the car's middle (the paper).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from .decks import Deck, Stations
+from .decks import Deck
 from .errors import frozen
-from .response import SampledModes, SampledResponse
+from .guideways import Guideway, Stations
+from .response import SampledModes
 from .settings import Settings
 from .tracks import Track
-from .trains import AxleTrain, Train
-from .vehicles import Vehicle
+from .trains import AnyTrain, Car, Wheel
+from .vehicles import Vehicle, WheelResponse
 
-__all__ = ["Coupling", "DeckState", "FixedPoint", "iterate", "prepare"]
+__all__ = ["CoupledCar", "Coupling", "DeckState", "FixedPoint", "ForcesAdded", "iterate", "prepare"]
 
-Delta = list[np.ndarray]
-"""What the deck's motion adds to each car's wheel forces while it is on the deck, N, each shape (2 wheels, n)."""
+ForcesAdded = list[np.ndarray]
+"""What the deck's motion adds to each car's wheel forces while it is on the deck, N.
+
+One array for each car, shape (wheels, 2, n).
+"""
 
 
 @dataclass(frozen=True, eq=False)
 class DeckState:
-    """The deck's modal coordinates, velocities and forces under one set of wheel forces, each shape (modes, samples)."""
+    """The deck's modal coordinates, velocities and forces, each shape (modes, samples)."""
 
     q: np.ndarray
     velocity: np.ndarray
     modal_force: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class CoupledCar:
+    """One car, its forces on a rigid deck, and where it meets this one.
+
+    Attributes
+    ----------
+    car : Car
+    rigid : ndarray, shape (wheels, 2, n)
+        Wheel forces on a rigid deck without their static part, N.
+    static : ndarray, shape (wheels, 2)
+        Static wheel forces, N.
+    window : slice
+        Samples while it is on the deck.
+    axles : ndarray of int, shape (axles,)
+        Stations of its axles, where the deck is felt.
+    loads : ndarray of int, shape (stations,)
+        Its load stations, where the deck is loaded.
+    load_matrix : ndarray, shape (stations, 3 or 5, wheels, 2)
+        From wheel forces to station loads about the deck axis.
+    respond : callable or None
+        See `Vehicle.sampled`; None where there is no suspension.
+    """
+
+    car: Car
+    rigid: np.ndarray = field(repr=False)
+    static: np.ndarray = field(repr=False)
+    window: slice
+    axles: np.ndarray
+    loads: np.ndarray
+    load_matrix: np.ndarray = field(repr=False)
+    respond: WheelResponse | None = field(repr=False)
+
+    @property
+    def on_deck(self) -> int:
+        """Samples in the window."""
+        return self.window.stop - self.window.start
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,225 +91,258 @@ class Coupling:
 
     Attributes
     ----------
-    train : Train or AxleTrain
-    deck : Deck
+    train : AnyTrain
+    deck : Guideway
+        A `Deck`; or, where another program solves the deck, only how it moves.
     settings : Settings
     time : ndarray, shape (n,)
         s; zero when the first axle enters.
-    rigid : list of ndarray, shape (2 wheels, n) for each car
-        Wheel forces on a rigid deck without their static part, N.
-    static : list of ndarray, shape (2 wheels,) for each car
-    windows : list of slice
-        Samples while each car is on the deck.
+    cars : tuple of CoupledCar
+        Front to back.
     axles : Stations
         Every axle, where the deck is felt.
-    axle_of : list of list of int
-        The axle of each wheel of each car.
     loads : Stations
         Every load station, where the deck is loaded.
     load_delays : ndarray, shape (stations,)
         m behind the first axle.
-    load_matrices : list of ndarray, shape (stations of the car, 3 or 5, 2 wheels)
-        From wheel forces to station loads about the deck axis.
-    modes : SampledModes
+    modes : SampledModes or None
         The deck's.
-    vehicles : list of SampledResponse
-        One for each kind of vehicle.
     """
 
-    train: Train | AxleTrain
-    deck: Deck
+    train: AnyTrain
+    deck: Guideway
     settings: Settings
     time: np.ndarray
-    rigid: list[np.ndarray]
-    static: list[np.ndarray]
-    windows: list[slice]
+    cars: tuple[CoupledCar, ...]
     axles: Stations
-    axle_of: list[list[int]]
     loads: Stations
     load_delays: np.ndarray
-    load_matrices: list[np.ndarray]
-    modes: SampledModes
-    vehicles: list[SampledResponse]
+    modes: SampledModes | None
 
-    def at_rest(self) -> Delta:
+    def nothing_added(self) -> ForcesAdded:
         """Return the first guess: the deck adds nothing."""
-        return [np.zeros((len(r), w.stop - w.start)) for r, w in zip(self.rigid, self.windows, strict=True)]
+        return [np.zeros((len(c.rigid), 2, c.on_deck)) for c in self.cars]
 
-    def station_loads(self, delta: Delta) -> list[np.ndarray]:
-        """Return the load of every station while it is on the deck, each shape (3 or 5, count)."""
-        result, station = [], 0
-        for rigid, static, window, matrices, own in zip(
-            self.rigid, self.static, self.windows, self.load_matrices, delta, strict=True
-        ):
-            forces = rigid[:, window] + static[:, None] + own
-            for matrix in matrices:
-                start = int(self.loads.starts[station]) - window.start
-                result.append(matrix @ forces[:, start : start + int(self.loads.counts[station])])
-                station += 1
+    # ---- the deck under the train
+
+    def station_loads(self, added: ForcesAdded) -> list[np.ndarray]:
+        """Return the load of every station while it is on the deck, shape (3 or 5, count)."""
+        result = []
+        for c, own in zip(self.cars, added, strict=True):
+            forces = c.rigid[..., c.window] + c.static[..., None] + own
+            for station, matrix in zip(c.loads, c.load_matrix, strict=True):
+                start = int(self.loads.starts[station]) - c.window.start
+                stop = start + int(self.loads.counts[station])
+                result.append(np.tensordot(matrix, forces[..., start:stop], 2))
         return result
 
     def deck_state(self, loads: list[np.ndarray]) -> DeckState:
         """Steps 1 and 4: the deck under the loads of every station."""
-        force = self.loads.modal_force(loads, len(self.deck.frequencies_hz), len(self.time))
+        force = self.loads.modal_force(loads, self.deck.coordinates, len(self.time))
         return DeckState(*map(frozen, (*self.modes(force), force)))
 
-    def support_input(self, state: DeckState, cars: list[int]) -> np.ndarray:
-        """Step 2: what the deck's motion w adds to the input of cars of one kind, k w + c w', shape (2 wheels, cars, n)."""
-        vehicle, axle_of = self.train.vehicles[cars[0]], np.array([self.axle_of[c] for c in cars])
-        first = np.array([self.windows[c].start for c in cars])
-        longest = max(self.windows[c].stop - self.windows[c].start for c in cars)
-        u = np.zeros((2 * len(vehicle.contacts), len(cars), longest))
+    # ---- the train on the deck
+
+    def support_input(self, state: DeckState, cars: Sequence[CoupledCar]) -> np.ndarray:
+        """Step 2: what the deck's motion w adds to the input of cars of one kind, k w + c w'.
+
+        Returns
+        -------
+        ndarray, shape (wheels, 2, cars, n)
+            N.
+        """
+        first = np.array([c.window.start for c in cars])
+        longest = max(c.on_deck for c in cars)
+        u = np.zeros((len(cars[0].car.wheels), 2, len(cars), longest))
         deck = self.axles.ordered(state.q, state.velocity)
-        # All wheels of one axle meet the same motion, and so do axles of several cars that share a table.
-        for wheels in (np.flatnonzero(axle_of[0] == axle) for axle in dict.fromkeys(axle_of[0])):
-            axles = axle_of[:, wheels[0]]
-            for places in self.axles.alike(axles):
-                moved, rate = self.axles.motion(deck, axles[places])
-                met = [self._wheel_input(vehicle, i, moved, rate) for i in wheels]
-                starts, counts = self.axles.starts[axles[places]] - first[places], self.axles.counts[axles[places]]
-                for i, (lateral, vertical) in zip(wheels, met, strict=True):
-                    for n, (place, start, count) in enumerate(zip(places, starts, counts, strict=True)):
-                        u[2 * i, place, start : start + count] = lateral[n, :count]
-                        u[2 * i + 1, place, start : start + count] = vertical[n, :count]
+        # All wheels of one axle meet the same motion, and so do axles of several cars that share a
+        # table.
+        for i, axle in enumerate(cars[0].car.axles):
+            stations = np.array([c.axles[i] for c in cars])
+            for alike in self.axles.alike(stations):
+                moved, rate = self.axles.motion(deck, stations[alike])
+                starts = self.axles.starts[stations[alike]] - first[alike]
+                counts = self.axles.counts[stations[alike]]
+                for wheel in axle.wheels:
+                    own = u[wheel.number - 1]
+                    met = self._wheel_input(cars[0].car.vehicle, wheel, moved, rate)
+                    for direction, values in enumerate(met):
+                        for n, c in enumerate(alike):
+                            window = slice(starts[n], starts[n] + counts[n])
+                            own[direction, c, window] = values[n, : counts[n]]
         return u
 
-    def _wheel_input(self, vehicle: Vehicle, i: int, moved: np.ndarray, rate: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return k w + c w' of one wheel (from 0), lateral and vertical, where its axle meets this motion of the deck."""
-        k, c = vehicle.contact_stiffness[i], vehicle.contact_damping[i]
+    def _wheel_input(
+        self, vehicle: Vehicle, wheel: Wheel, moved: np.ndarray, rate: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return k w + c w' of one wheel, lateral and vertical, where its axle meets this motion.
+
+        Each of shape (stations, n), as y, z and roll of the motion are.
+        """
+        contact = wheel.number - 1
+        k, c = vehicle.contact_stiffness[contact], vehicle.contact_damping[contact]
         vertical = k[1] * moved[1] + c[1] * rate[1]
         if self.settings.feedback != "all":
             return np.zeros_like(vertical), vertical
         roll = [k[d] * moved[2] + c[d] * rate[2] for d in (0, 1)]
-        vertical += (self.settings.track_offset + vehicle.contacts[i].y) * roll[1]
-        return k[0] * moved[0] + c[0] * rate[0] - self.deck.track_height * roll[0], vertical
+        vertical += (self.settings.track_offset + wheel.y) * roll[1]
+        lateral = k[0] * moved[0] + c[0] * rate[0] - self.deck.track_height * roll[0]
+        return lateral, vertical
 
-    def train_pass(self, state: DeckState) -> Delta:
-        """Steps 2 and 3: the wheel forces due to the deck's motion, each car while it is on the deck."""
-        delta = self.at_rest()
-        for (_, cars), system in zip(self.train.groups(), self.vehicles, strict=True):
-            u = self.support_input(state, list(cars))
-            forces = system(u)
-            forces -= u
-            for i, car in enumerate(cars):
-                delta[car] = forces[:, i, : delta[car].shape[1]]
-        return delta
+    def train_pass(self, state: DeckState) -> ForcesAdded:
+        """Steps 2 and 3: the wheel forces due to the deck's motion, each car while on the deck."""
+        added = self.nothing_added()
+        for _, own in self.train.kinds():
+            cars = [self.cars[car.number - 1] for car in own]
+            forces = cars[0].respond(self.support_input(state, cars))
+            for i, c in enumerate(cars):
+                added[c.car.number - 1] = forces[:, :, i, : c.on_deck]
+        return added
 
-    def wheel_forces(self, delta: Delta, felt: DeckState | None) -> np.ndarray:
-        """Return all wheel forces on the deck, N, shape (wheels, 2, n): lateral, vertical; static part included.
+    def wheel_forces(self, added: ForcesAdded, felt: DeckState | None) -> np.ndarray:
+        """Return all wheel forces on the deck, N, shape (wheels, 2, n), static part included.
 
-        `felt` is the deck's motion that `delta` answers to: behind the deck a car's motion decays freely on the track. None:
-        a rigid deck.
+        Parameters
+        ----------
+        added : list of ndarray
+        felt : DeckState or None
+            The deck's motion that `added` answers to: behind the deck a car's motion decays freely
+            on the track. None: a rigid deck.
         """
-        return np.concatenate([self.car_wheel_forces(car, delta, felt) for car in range(len(self.rigid))])
+        return np.concatenate([self.car_wheel_forces(c, added, felt) for c in self.cars])
 
-    def car_wheel_forces(self, car: int, delta: Delta, felt: DeckState | None) -> np.ndarray:
-        """Return what `wheel_forces` gives for one car (from 0), shape (its wheels, 2, n)."""
-        total = self.rigid[car] + self.static[car][:, None]
-        window = self.windows[car]
-        total[:, window] += delta[car]
-        if felt is not None and window.stop < total.shape[1] and len(self.train.groups()) > 0:
-            total[:, window.stop :] += self.decay(felt, car)
-        return total.reshape(-1, 2, total.shape[1])
-
-    def decay(self, state: DeckState, car: int) -> np.ndarray:
-        """Return how one car's wheel forces decay on the level track behind the deck, shape (2 wheels, samples after it).
-
-        The car's whole time on the deck is run once more with the track behind added.
-        """
-        rest = len(self.time) - self.windows[car].stop
-        u = self.support_input(state, [car])
-        longer = np.concatenate([u, np.zeros((*u.shape[:2], rest))], axis=2)
-        kind = next(i for i, (_, cars) in enumerate(self.train.groups()) if car in cars)
-        return self.vehicles[kind](longer)[:, 0, u.shape[2] :]
+    def car_wheel_forces(
+        self, c: CoupledCar, added: ForcesAdded, felt: DeckState | None
+    ) -> np.ndarray:
+        """Return what `wheel_forces` gives for one car, shape (its wheels, 2, n)."""
+        total = c.rigid + c.static[..., None]
+        total[..., c.window] += added[c.car.number - 1]
+        behind = len(self.time) - c.window.stop
+        if felt is not None and behind > 0 and c.respond is not None:
+            # The car's whole time on the deck is run once more, with the level track behind added.
+            u = self.support_input(felt, [c])
+            longer = np.concatenate([u, np.zeros((*u.shape[:3], behind))], axis=3)
+            total[..., c.window.stop :] += c.respond(longer)[:, :, 0, u.shape[3] :]
+        return total
 
     def body_accelerations(self, state: DeckState) -> list[np.ndarray]:
-        """Return what the deck's motion adds to every car body's accelerations, m/s2, each shape (6, samples).
+        """Return what the deck's motion adds to every car body's accelerations, m/s2.
 
-        See `Vehicle.body_system`. Like `decay`, each car runs on over the level track behind the deck.
+        Each shape (3, 2, samples), places as for `Vehicle.sampled_body`. Each car runs on over the
+        level track behind the deck. None of bare axle loads.
         """
         result = []
-        for car, (vehicle, window) in enumerate(zip(self.train.vehicles, self.windows, strict=True)):
-            system, direct = vehicle.body_system()
-            met = self.support_input(state, [car])[:, 0]
-            u = np.zeros((len(met), len(self.time) - window.start))
-            u[:, : met.shape[1]] = met
-            added = np.zeros((6, len(self.time)))
-            added[:, window.start :] = system.sampled(self.settings.time_step)(u) + direct @ u
+        for c in self.cars:
+            if c.respond is None:
+                continue
+            met = self.support_input(state, [c])[:, :, 0]
+            u = np.zeros((*met.shape[:2], len(self.time) - c.window.start))
+            u[..., : met.shape[2]] = met
+            added = np.zeros((3, 2, len(self.time)))
+            respond = c.car.vehicle.sampled_body(self.settings.time_step)
+            added[..., c.window.start :] = respond(u)
             result.append(added)
         return result
 
-    def change(self, new: Delta, old: Delta) -> float:
-        """Return the largest, over wheels and directions, of rms(new - old) / rms(force - static) while on the deck.
+    def change(self, new: ForcesAdded, old: ForcesAdded) -> float:
+        """Return the largest, over wheels and directions, of rms(new - old) / rms(force - static).
 
-        A force that varies by less than a millionth of the largest static wheel load is measured by that instead, since
-        round-off never settles. Not finite where the forces are not.
+        While on the deck. A force that varies by less than a millionth of the largest static wheel
+        load is measured by that instead, since round-off never settles. Not finite where the forces
+        are not.
         """
-        floor = max(1e-6 * max(np.abs(s).max() for s in self.static), np.finfo(float).tiny)
+        largest = max(np.abs(c.static).max() for c in self.cars)
+        floor = max(1e-6 * largest, np.finfo(float).tiny)
         worst = 0.0
-        for rigid, window, a, b in zip(self.rigid, self.windows, new, old, strict=True):
-            moved, size = (np.sqrt(np.einsum("ij,ij->i", x, x) / x.shape[1]) for x in (a - b, rigid[:, window] + a))
-            # Forces that have grown beyond all numbers give NaN, which max() would take for no change at all.
+        for c, a, b in zip(self.cars, new, old, strict=True):
+            moved, size = (
+                np.sqrt(np.einsum("wdt,wdt->wd", x, x) / x.shape[2])
+                for x in (a - b, c.rigid[..., c.window] + a)
+            )
+            # Forces beyond all numbers give NaN, which max() would take for no change at all.
             worst = float(np.maximum(worst, np.max(moved / np.maximum(size, floor))))
         return worst
 
 
-def prepare(train: Train | AxleTrain, deck: Deck, track: Track, s: Settings) -> Coupling:
-    """Compute everything that all passes share: rigid-deck forces, places on the deck, sampled systems."""
-    advance = s.speed * s.time_step
-    samples = int(np.ceil((deck.length + train.length) / advance + s.tail / s.time_step)) + 1
-    axle_delays, axle_of, windows, matrices, load_delays = [], [], [], [], []
-    for car, centre in enumerate(train.centres):
-        # Left and right wheels of an axle differ by rounding at most; they must share one station.
-        wheels = [round(w.delay, 9) for w in train.wheels if w.car == car + 1]
-        places = sorted(set(wheels))
-        axle_of.append([len(axle_delays) + places.index(delay) for delay in wheels])
-        axle_delays += places
-        # One sample before the first axle enters, so that the car's motion starts from rest there.
-        start = max(0, int(np.ceil(places[0] / advance - 1e-4)) - 1)
-        stop = start + int(np.ceil((deck.length + places[-1] - places[0]) / advance)) + 3
-        windows.append(slice(start, min(stop, samples)))
-        condensation = train.condensation(car, s.loads)
-        load_delays.append(centre - condensation.offsets)
+def prepare(train: AnyTrain, deck: Guideway, track: Track, settings: Settings) -> Coupling:
+    """Compute all that the passes share: rigid-deck forces, places on the deck, sampled systems."""
+    s = settings
+    passage = s.passage
+    rigid = train.rigid_forces(track, passage)
+    respond = {id(v): v.sampled(s.time_step) for v, _ in train.kinds()}
+    cars, load_delays, axles = [], [], 0
+    for car, own in zip(train.formation, rigid, strict=True):
+        condensation = car.condensation(s.loads)
         matrix = condensation.matrix.copy()
         matrix[:, 2] += s.track_offset * matrix[:, 1] - deck.track_height * matrix[:, 0]
-        matrices.append(matrix)
-    load_delays = np.concatenate(load_delays)
+        cars.append(
+            CoupledCar(
+                car,
+                own,
+                car.static_forces,
+                _window(car, deck.length, passage.advance, s.samples),
+                axles + np.arange(len(car.axles)),
+                len(load_delays) + np.arange(len(condensation.offsets)),
+                matrix,
+                respond.get(id(car.vehicle)),
+            )
+        )
+        axles += len(car.axles)
+        load_delays += (car.centre - condensation.offsets).tolist()
+    sampling = s.speed, s.time_step, s.samples
+    axle_delays = np.array([axle.delay for axle in train.placed_axles])
     return Coupling(
         train=train,
         deck=deck,
         settings=s,
-        time=frozen(np.arange(samples) * s.time_step),
-        rigid=train.rigid_forces(track, s.speed, s.time_step, samples, s.lead_in, s.excitation),
-        static=[train.static_forces(car) for car in range(len(train.centres))],
-        windows=windows,
-        axles=deck.stations(np.array(axle_delays), s.speed, s.time_step, samples),
-        axle_of=axle_of,
-        loads=deck.stations(load_delays, s.speed, s.time_step, samples),
-        load_delays=load_delays,
-        load_matrices=matrices,
-        modes=deck.sampled(s.time_step),
-        vehicles=[v.sampled(s.time_step) for v, _ in train.groups()],
+        time=frozen(np.arange(s.samples) * s.time_step),
+        cars=tuple(cars),
+        axles=deck.stations(axle_delays, *sampling),
+        loads=deck.stations(np.array(load_delays), *sampling),
+        load_delays=np.array(load_delays),
+        modes=deck.sampled(s.time_step) if isinstance(deck, Deck) else None,
     )
+
+
+def _window(car: Car, length: float, advance: float, samples: int) -> slice:
+    """Return the samples while a car is on the deck.
+
+    From one before its first axle enters, so that its motion starts from rest there.
+    """
+    first, last = car.axles[0].delay, car.axles[-1].delay
+    start = max(0, int(np.ceil(first / advance - 1e-4)) - 1)
+    stop = start + int(np.ceil((length + last - first) / advance - 1e-4)) + 3
+    return slice(start, min(stop, samples))
 
 
 @dataclass(frozen=True, eq=False)
 class FixedPoint:
-    """Every pass of an iteration, pass 0 (rigid deck) first, with the changes and whether it settled.
+    """Every pass of an iteration, pass 0 (rigid deck) first, and whether it settled.
 
-    `states` holds the deck's state under the first pass and under the last but one, which the last answers to.
+    Attributes
+    ----------
+    passes : tuple of list of ndarray
+        What the deck's motion adds to the wheel forces, see `ForcesAdded`.
+    changes : tuple of float
+        See `Coupling.change`.
+    converged : bool
+    states : dict of DeckState
+        The deck's state under the first pass and under the last but one, which the last answers to.
     """
 
-    passes: tuple[Delta, ...]
+    passes: tuple[ForcesAdded, ...]
     changes: tuple[float, ...]
     converged: bool
     states: dict[int, DeckState]
 
 
 def iterate(coupling: Coupling, progress: Callable[[str], None] | None = None) -> FixedPoint:
-    """Repeat the steps until the change is below the tolerance twice in a row, or for a given number of passes."""
+    """Repeat the steps until the change is below the tolerance twice in a row.
+
+    Or for a given number of passes.
+    """
     s = coupling.settings
-    passes, changes = [coupling.at_rest()], []
+    passes, changes = [coupling.nothing_added()], []
     share = s.relaxation if isinstance(s.relaxation, float) else 1.0
     previous, below = None, 0
     states: dict[int, DeckState] = {}
@@ -297,4 +373,5 @@ def _aitken(share: float, step: list[np.ndarray], previous: list[np.ndarray]) ->
     size = sum(float(np.vdot(c, c)) for c in change)
     if size == 0.0:
         return share
-    return float(np.clip(-share * sum(float(np.vdot(p, c)) for p, c in zip(previous, change, strict=True)) / size, 0.05, 1.5))
+    along = sum(float(np.vdot(p, c)) for p, c in zip(previous, change, strict=True))
+    return float(np.clip(-share * along / size, 0.05, 1.5))

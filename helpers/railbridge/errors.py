@@ -1,12 +1,15 @@
 """Refusals: what cannot be used is named, with its value, what is allowed and what to try.
 
-Every refusal is one :class:`InputError`, raised before any number is computed, in the words of whoever called: a function
-names its own argument. Who knows more of the way there (the table of a case file, say) puts it in front; see `within`.
+Every refusal is one :class:`InputError`, raised before any number is computed, in the words of
+whoever called: a function names its own argument. Who knows more of the way there (the table of a
+case file, say) puts it in front; see `within`.
 
-A path is written ``train.cars[2].vehicle``; places in lists count from 1, as cars, axles and wheels do.
+A path is written ``train.cars[2].vehicle``; places in lists count from 1, as cars, axles and wheels
+do.
 
-What a field of a dataclass may be stands in its type, as in ``speed: Annotated[float, Range(above=0.0, unit="m/s")]``.
-`check_fields` holds the dataclass to it, and the tables of case files are made from the same types.
+What a field of a dataclass may be stands in its type, as in ``speed: Annotated[float,
+Range(above=0.0, unit="m/s")]``. `check_fields` holds the dataclass to it, and the tables of case
+files are made from the same types.
 """
 
 from __future__ import annotations
@@ -22,8 +25,9 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 import numpy as np
 
 __all__ = [
-    "InputError", "Range", "boolean", "check_fields", "choice", "did_you_mean", "field_types", "frozen", "integer", "joined",
-    "keys", "number", "numbers", "plain", "table", "text", "within",
+    "FieldType", "InputError", "Range", "boolean", "check_fields", "choice", "did_you_mean",
+    "field_types", "frozen", "integer", "joined", "keys", "number", "numbers", "plain", "table",
+    "text", "within",
 ]  # fmt: skip
 
 
@@ -265,7 +269,7 @@ class FieldType:
 
     Attributes
     ----------
-    kind : {"number", "numbers", "choice", "boolean", "text", "other"}
+    kind : {"number", "numbers", "choice", "number or choice", "boolean", "text", "other"}
     range : Range
         Of a number, or of each of several.
     count : int or None
@@ -285,12 +289,14 @@ class FieldType:
         """Return the value as the dataclass keeps it, or raise `InputError`."""
         if (value is None and self.optional) or self.kind == "other":
             return value
-        if self.kind == "number":
+        if self.kind == "number" or (
+            self.kind == "number or choice" and not isinstance(value, str)
+        ):
             return self.range.checked(field, value)
         if self.kind == "numbers":
             found = numbers(field, value, count=self.count, **vars(self.range))
             return tuple(found.tolist())
-        if self.kind == "choice":
+        if self.choices:
             return choice(field, value, self.choices)
         return (boolean if self.kind == "boolean" else text)(field, value)
 
@@ -299,9 +305,9 @@ class FieldType:
 def field_types(kind: type) -> dict[str, FieldType]:
     """Return what each field of a dataclass may be.
 
-    Understood are ``Annotated[float, Range(...)]``, ``Annotated[tuple[float, ...], Range(...)]`` (or
-    ``tuple[float, float]`` for two), ``Literal["a", "b"]``, ``bool``, ``str``, and ``| None`` of each; what is none of these
-    is left alone.
+    Understood are ``Annotated[float, Range(...)]``, ``Annotated[tuple[float, ...], Range(...)]``
+    (or ``tuple[float, float]`` for two), ``Literal["a", "b"]``, ``bool``, ``str``, and ``| None``
+    of each; what is none of these is left alone.
     """
     hints = get_type_hints(kind, include_extras=True)
     return {f.name: _field_type(hints[f.name]) for f in fields(kind)}
@@ -312,6 +318,10 @@ def _field_type(hint: Any) -> FieldType:
     if get_origin(hint) in (Union, UnionType):
         parts = [part for part in get_args(hint) if part is not NoneType]
         optional = len(parts) < len(get_args(hint))
+        kinds = sorted((_field_type(part) for part in parts), key=lambda k: k.kind, reverse=True)
+        if [k.kind for k in kinds] == ["number", "choice"]:
+            range_, choices = kinds[0].range, kinds[1].choices
+            return FieldType("number or choice", range_, choices=choices, optional=optional)
         if len(parts) > 1:
             return FieldType("other", optional=optional)
         hint = parts[0]
@@ -320,8 +330,8 @@ def _field_type(hint: Any) -> FieldType:
         bounds = next((note for note in notes if isinstance(note, Range)), None)
         if bounds is not None:
             inside = get_args(inner)
-            several = get_origin(inner) is tuple
-            count = len(inside) if several and inside[-1] is not Ellipsis else None
+            several = get_origin(inner) is tuple or inner is np.ndarray
+            count = len(inside) if inside and inside[-1] is not Ellipsis else None
             kind = "numbers" if several else "number"
             return FieldType(kind, bounds, count, optional=optional)
     if get_origin(hint) is Literal:

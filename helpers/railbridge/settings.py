@@ -1,161 +1,256 @@
-"""How a crossing is computed: every choice checked before anything runs, and what was left open filled in."""
+"""How a crossing is computed: every choice checked before anything runs, the rest filled in."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Annotated, Literal
 
 import numpy as np
 
 from . import errors
-from .decks import Deck
-from .errors import InputError
+from .errors import InputError, Range, check_fields
+from .guideways import Guideway
 from .tracks import Track
-from .trains import LOADS, AxleTrain, Train
+from .trains import AnyTrain, Passage
 
-__all__ = ["Settings", "check", "default_time_step"]
+__all__ = ["LEAD_IN_SECONDS", "Options", "Settings", "bytes_needed", "check", "default_time_step"]
 
 LEAD_IN_SECONDS = 7.5
 SAMPLES_PER_LENGTH = 10
 """Fewest samples per wavelength or notch."""
-LARGEST = 3e8
-"""Most numbers held at a time: 2.4 GB."""
+SAMPLES_PER_DECK = 20
+STATIONS = 41
+"""Places along the deck where envelopes are taken, ends included."""
+MEMORY_LIMIT = 2e9
+"""Bytes that a run, its summary and its histories may need together."""
+
+_IN_METRES = "Give it in m/s: 72 km/h is 20"
 
 
-@dataclass(frozen=True)
-class Settings:
-    """How a crossing is computed; see `cross`."""
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What can be chosen about a crossing, besides train, deck and track.
 
-    speed: float
-    time_step: float
-    lead_in: float
-    tail: float
-    track_offset: float
-    loads: str
-    interaction: str
-    tolerance: float
-    max_iterations: int
-    iterations: int | None
-    relaxation: float | str | None
-    excitation: str
-    feedback: str
+    Attributes
+    ----------
+    speed : float
+        m/s; 72 km/h is 20.
+    loads : {"wheels", "bogies", "condensed"}
+        How the wheel forces act on the deck: as they are, as one force a bogie, or one a car (the
+        paper).
+    interaction : {"iterate", "rigid", "direct"}
+        The fixed point; the deck under the forces of a rigid deck (iteration 0); or train and deck
+        solved together at every step (wheel loads only; the limit of the fixed point, without
+        iterating, more slowly).
+    track_offset : float or str
+        Track centre line, m left of the deck axis, or the name of a track of the deck.
+    time_step : float, optional
+        s; chosen if left out: at most 1 ms and a twentieth of the shortest wave or notch.
+    lead_in : float, optional
+        m of irregular track before the deck; default 7.5 s of travel. 0: level track before the
+        deck, the train at rest; wrong where the track then starts on the deck with a step (a phase
+        that is not zero), whose blow on the dampers is not counted. On harmonic track a run-up that
+        leaves more than 1 % of the steady forces unsettled is warned about.
+    tail : float
+        s after the last axle has left.
+    tolerance : float
+        The iteration stops when forces change by less than this twice in a row.
+    max_iterations : int
+        Most iterations; more is an error, with what was computed so far.
+    iterations : int, optional
+        Exactly this many, converged or not (the paper did four).
+    relaxation : float or "aitken", optional
+        Share of each correction that is applied, or Aitken's adaptive share; for light decks and
+        fast trains.
+    excitation : {"wheels", "car"}
+        Every wheel meets the track at its own place, or all wheels of a car in phase (a guess at
+        the paper's reading).
+    feedback : {"all", "vertical"}
+        What the train feels of the deck: its whole motion, or only the vertical displacement,
+        without twist (a guess at the paper's reading).
+    """
+
+    speed: Annotated[float, Range(above=0.0, most=200.0, unit="m/s", remedy=_IN_METRES)]
+    loads: Literal["wheels", "bogies", "condensed"] = "wheels"
+    interaction: Literal["iterate", "rigid", "direct"] = "iterate"
+    track_offset: float | str = 0.0
+    time_step: Annotated[float, Range(above=0.0, unit="s")] | None = None
+    lead_in: (
+        Annotated[
+            float,
+            Range(least=0.0, most=1e5, unit="m", remedy="0 means level track before the deck"),
+        ]
+        | None
+    ) = None
+    tail: Annotated[float, Range(least=0.0, most=1e4, unit="s")] = 1.0
+    tolerance: Annotated[float, Range(above=0.0, most=1.0)] = 1e-8
+    max_iterations: Annotated[int, Range(least=1, most=10_000, whole=True)] = 50
+    iterations: Annotated[int, Range(least=1, most=10_000, whole=True)] | None = None
+    relaxation: (
+        Annotated[float, Range(above=0.0, most=1.0, remedy="Or use 'aitken'")]
+        | Literal["aitken"]
+        | None
+    ) = None
+    excitation: Literal["wheels", "car"] = "wheels"
+    feedback: Literal["all", "vertical"] = "all"
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        for name, needed in [("loads", "wheels"), ("feedback", "all")]:
+            value = getattr(self, name)
+            if self.interaction == "direct" and value != needed:
+                allowed = "the direct solution couples true wheels and the whole motion, "
+                allowed += f"so it must be '{needed}'"
+                raise InputError(name, value, allowed, "Or use interaction = 'iterate'")
 
 
-def check(
-    train: Train | AxleTrain,
-    deck: Deck,
-    track: Track,
-    *,
-    speed: float,
-    loads: str = "wheels",
-    interaction: str = "iterate",
-    track_offset: float | str = 0.0,
-    time_step: float | None = None,
-    lead_in: float | None = None,
-    tail: float = 1.0,
-    tolerance: float = 1e-8,
-    max_iterations: int = 50,
-    iterations: int | None = None,
-    relaxation: float | str | None = None,
-    excitation: str = "wheels",
-    feedback: str = "all",
-) -> Settings:
-    """Check the arguments of `cross` without computing anything, and fill in what was left to be chosen.
+@dataclass(frozen=True, kw_only=True)
+class Settings(Options):
+    """Options of one crossing with all that was left open filled in.
+
+    Attributes
+    ----------
+    samples : int
+        Samples from t = 0, when the first axle enters, to the end of the tail.
+    """
+
+    samples: int
+
+    @property
+    def passage(self) -> Passage:
+        """How the train passes."""
+        return Passage(self.speed, self.time_step, self.samples, self.lead_in, self.excitation)
+
+
+def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
+    """Check the arguments of `cross` without computing anything, and fill in what is left open.
+
+    Parameters
+    ----------
+    train, deck, track
+    **options
+        See `Options`.
 
     Raises
     ------
     InputError
-        Naming the argument as a case names it, for instance ``run.speed``.
+        Naming the argument.
     """
-    for name, value, kinds in [("train", train, (Train, AxleTrain)), ("deck", deck, Deck), ("track", track, Track)]:
-        if not isinstance(value, kinds):
-            raise InputError(name, value, f"must be a {name.title()}", f"Make one with railbridge.{name.title()}")
-    speed = errors.number("run.speed", speed, above=0.0, most=200.0, unit="m/s", remedy="Give it in m/s: 72 km/h is 20")
-    errors.choice("run.loads", loads, LOADS)
-    errors.choice("run.interaction", interaction, ("iterate", "rigid", "direct"))
-    errors.choice("run.excitation", excitation, ("wheels", "car"))
-    errors.choice("run.feedback", feedback, ("all", "vertical"))
-    for name, value, needed in [("loads", loads, "wheels"), ("feedback", feedback, "all")]:
-        if interaction == "direct" and value != needed:
-            allowed = f"the direct solution couples true wheels and the whole motion, so it must be '{needed}'"
-            raise InputError(f"run.{name}", value, allowed, "Or use run.interaction = 'iterate'")
-    train.condensation(0, loads)
-    if relaxation is not None and not isinstance(relaxation, str):
-        relaxation = errors.number("run.relaxation", relaxation, above=0.0, most=1.0, remedy="Or use 'aitken'")
-    elif relaxation is not None:
-        errors.choice("run.relaxation", relaxation, ("aitken",))
-    tail = errors.number("run.tail", tail, least=0.0, most=1e4, unit="s")
-    step = _time_step(train, deck, track, speed, time_step)
-    lead_in = _lead_in(speed, step, lead_in)
-    _refuse_size(train, deck, speed, step, lead_in, tail)
-    return Settings(
-        speed=speed,
-        time_step=step,
-        lead_in=lead_in,
-        tail=tail,
-        track_offset=_track_offset(train, deck, track_offset),
-        loads=loads,
-        interaction=interaction,
-        tolerance=errors.number("run.tolerance", tolerance, above=0.0, most=1.0),
-        max_iterations=errors.integer("run.max_iterations", max_iterations, least=1, most=10_000),
-        iterations=None if iterations is None else errors.integer("run.iterations", iterations, least=1, most=10_000),
-        relaxation=relaxation,
-        excitation=excitation,
-        feedback=feedback,
-    )
+    for name, value, kind in [
+        ("train", train, AnyTrain), ("deck", deck, Guideway), ("track", track, Track),
+    ]:  # fmt: skip
+        if not isinstance(value, kind):
+            title = name.title()
+            raise InputError(name, value, f"must be a {title}", f"Make one with railbridge.{title}")
+    errors.keys("", options, [f.name for f in fields(Options)], ["speed"])
+    asked = Options(**options)
+    train.formation[0].condensation(asked.loads)
+    step = _time_step(train, deck, track, asked)
+    advance = asked.speed * step
+    chosen = {
+        "time_step": step,
+        "lead_in": _lead_in(asked, step),
+        "track_offset": _track_offset(train, deck, asked.track_offset),
+        "samples": int(np.ceil((deck.length + train.length) / advance + asked.tail / step)) + 1,
+    }
+    settings = Settings(**(vars(asked) | chosen))
+    _refuse_size(train, deck, settings)
+    return settings
 
 
-def _track_offset(train: Train | AxleTrain, deck: Deck, given: float | str) -> float:
+def _track_offset(train: AnyTrain, deck: Guideway, given: float | str) -> float:
     offset = deck.track_offset(given)
-    for w in train.wheels:
-        if deck.width is not None and abs(offset + w.y) > deck.width / 2:
-            off = f"wheel {w.number} of car {w.car} at y = {offset + w.y:g} m is off the deck, half width {deck.width / 2:g} m"
-            raise InputError("train.track", given, off, "Move the track towards the axis, or correct the deck's width")
+    for wheel in train.wheels:
+        if deck.width is not None and abs(offset + wheel.y) > deck.width / 2:
+            where = f"wheel {wheel.number} of car {wheel.car} at y = {offset + wheel.y:g} m"
+            allowed = f"{where} is off the deck, half width {deck.width / 2:g} m"
+            remedy = "Move the track towards the axis, or correct the deck's width"
+            raise InputError("track_offset", given, allowed, remedy)
     return offset
 
 
-def _lead_in(speed: float, step: float, given: float | None) -> float:
-    """Return the run-up; refuse a fade-in (half of it) that the samples do not resolve: its slope, met by chance, is a blow."""
-    least = 2 * SAMPLES_PER_LENGTH * speed * step
-    if given is None:
-        return max(LEAD_IN_SECONDS * speed, least)
-    lead_in = errors.number("run.lead_in", given, least=0.0, most=1e5, unit="m", remedy="0 means level track before the deck")
-    if 0.0 < lead_in < least * (1 - 1e-9):
-        few = f"leaves fewer than {SAMPLES_PER_LENGTH} samples for the fade-in; must be 0 or at least {least:.3g} m"
-        raise InputError("run.lead_in", lead_in, few, "Leave it out for 7.5 s of travel; 0 means level track before the deck")
-    return lead_in
+def _lead_in(asked: Options, step: float) -> float:
+    """Return the run-up; refuse a fade-in (half of it) that the samples do not resolve.
+
+    Its slope, met by chance, would be a blow.
+    """
+    least = 2 * SAMPLES_PER_LENGTH * asked.speed * step
+    if asked.lead_in is None:
+        return max(LEAD_IN_SECONDS * asked.speed, least)
+    if 0.0 < asked.lead_in < least * (1 - 1e-9):
+        few = f"leaves fewer than {SAMPLES_PER_LENGTH} samples for the fade-in; "
+        few += f"must be 0 or at least {least:.3g} m"
+        remedy = "Leave it out for 7.5 s of travel; 0 means level track before the deck"
+        raise InputError("lead_in", asked.lead_in, few, remedy)
+    return asked.lead_in
 
 
-def _refuse_size(train: Train | AxleTrain, deck: Deck, speed: float, step: float, lead_in: float, tail: float) -> None:
-    """Refuse what would not fit into memory: a slip in the speed or the step must not stop the machine."""
-    samples = (lead_in + train.length + deck.length) / speed / step + tail / step
-    values = samples * (4 * len(train.wheels) + 4 * len(deck.frequencies_hz))
-    if values > LARGEST:
-        few = f"makes {samples:.3g} samples of {len(train.wheels)} wheels and {len(deck.frequencies_hz)} modes"
-        few += f", about {values * 8e-9:.3g} GB, too much to hold"
-        raise InputError("run.time_step", step, few, "Use a larger step or speed, a shorter lead-in or tail, or fewer cars")
+def _shortest(train: AnyTrain, track: Track) -> float:
+    """Shortest length of irregularity, m, that the step has to resolve."""
+    return min([track.shortest, *(notch.shortest for notch in train.notches)])
 
 
-def _time_step(train: Train | AxleTrain, deck: Deck, track: Track, speed: float, given: float | None) -> float:
-    if given is None:
+def _time_step(train: AnyTrain, deck: Guideway, track: Track, asked: Options) -> float:
+    step, speed = asked.time_step, asked.speed
+    if step is None:
         return default_time_step(train, track, speed)
-    step = errors.number("run.time_step", given, above=0.0, unit="s")
-    shortest = min([track.shortest, *(n.shortest for n in train.notches)])
-    for length, samples, what in [(shortest, SAMPLES_PER_LENGTH, "of irregularity"), (deck.length, 20, "of deck")]:
+    for length, samples, what in [
+        (_shortest(train, track), SAMPLES_PER_LENGTH, "of irregularity"),
+        (deck.length, SAMPLES_PER_DECK, "of deck"),
+    ]:
         if speed * step > length / samples * (1 + 1e-9):
-            few = f"leaves fewer than {samples} samples in {length:g} m {what}; at most {length / samples / speed:.3g} s"
-            raise InputError("run.time_step", step, few, "Leave run.time_step out to have it chosen")
+            few = f"leaves fewer than {samples} samples in {length:g} m {what}; "
+            few += f"at most {length / samples / speed:.3g} s"
+            raise InputError("time_step", step, few, "Leave time_step out to have it chosen")
     return step
 
 
-def default_time_step(train: Train | AxleTrain, track: Track, speed: float, most: float = 1e-3) -> float:
+def default_time_step(train: AnyTrain, track: Track, speed: float, most: float = 1e-3) -> float:
     """Return the time step used when none is given, s.
 
-    At most 1 ms (or what is given for it) and a twentieth of the shortest wave or notch, and a whole fraction of the time
-    between cars, so that all cars meet the samples alike and are computed together.
+    At most 1 ms (or what is given for it) and a twentieth of the shortest wave or notch, and a
+    whole fraction of the time between cars, so that all cars meet the samples alike and are
+    computed together.
     """
-    shortest = min([track.shortest, *(n.shortest for n in train.notches)])
-    most = min(most, shortest / speed / (2 * SAMPLES_PER_LENGTH))
-    if len(train.centres) == 1:
+    most = min(most, _shortest(train, track) / speed / (2 * SAMPLES_PER_LENGTH))
+    if len(train.formation) == 1:
         return most
-    between = float(train.centres[1] - train.centres[0]) / speed
+    between = (train.formation[1].centre - train.formation[0].centre) / speed
     return between / np.ceil(between / most)
+
+
+def bytes_needed(train: AnyTrain, deck: Guideway, settings: Settings, points: int = 1) -> float:
+    """Return about how much memory a run, its summary and its histories need, bytes."""
+    s, advance, cars = settings, settings.passage.advance, train.formation
+    wheels, samples = len(train.wheels), s.samples
+    longest = max(car.axles[-1].delay - car.axles[0].delay for car in cars)
+    on_deck = min((deck.length + longest) / advance + 3, samples)
+    # Cars of one kind that meet the samples alike are run together, the others each by itself.
+    runs = {
+        (id(vehicle), round(car.axles[0].delay / advance % 1.0, 6))
+        for vehicle, own in train.kinds()
+        for car in own
+    }
+    passes = {"iterate": s.iterations or s.max_iterations, "direct": 1, "rigid": 0}[s.interaction]
+    record = s.lead_in / advance + samples
+    kept = len(runs) * 2 * wheels / len(cars) * record
+    working = 60.0 * record
+    state = 10.0 * deck.coordinates * samples + passes * samples
+    forces = 6.0 * wheels * samples + 20.0 * len(cars) * samples
+    iterated = (passes + 8.0) * 2 * wheels * on_deck
+    summary = (5.0 * STATIONS + 9.0 * points) * samples
+    return 8.0 * (kept + working + state + forces + iterated + summary) + 1.2e8
+
+
+def _refuse_size(train: AnyTrain, deck: Guideway, settings: Settings) -> None:
+    """Refuse what would not fit into memory: a slip in the speed must not stop the machine."""
+    needed = bytes_needed(train, deck, settings)
+    if needed > MEMORY_LIMIT:
+        raise InputError(
+            "time_step",
+            settings.time_step,
+            f"this run would need about {needed / 1e9:.3g} GB of memory, too much: "
+            f"the limit is {MEMORY_LIMIT / 1e9:.3g} GB",
+            "Use a larger step or speed, fewer cars, a shorter lead_in or tail, "
+            "or a smaller max_iterations",
+        )

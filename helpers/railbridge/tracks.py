@@ -1,21 +1,24 @@
 r"""Irregularities of rail and wheel: value and slope.
 
-x is the distance from the bridge entrance, forward; r > 0 raises the wheel, or moves it left. Every irregularity knows its
-slope dr/dx in closed form, because the wheel force needs ``k r + c V dr/dx``.
+x is the distance from the bridge entrance, forward; r > 0 raises the wheel, or moves it left. Every
+irregularity knows its slope dr/dx in closed form, because the wheel force needs ``k r + c V
+dr/dx``.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Protocol
+from typing import Annotated, Protocol
 
 import numpy as np
 
 from . import errors
-from .errors import InputError
+from .errors import InputError, Range, check_fields
 
 __all__ = ["FadeIn", "Harmonic", "Irregularity", "Level", "Notch", "Rails", "Table", "Track"]
+
+_OTHER_SIGN = "Shift the phase by pi to change the sign"
 
 
 class Irregularity(Protocol):
@@ -54,32 +57,34 @@ class Harmonic:
     Attributes
     ----------
     amplitude : float
-        A, m, not negative.
+        A, m.
     wavelength : float, optional
-        lambda, m. Or give `length` and `half_waves`.
+        lambda, m. Or give length and half_waves.
     phase : float
         phi, rad.
-    length, half_waves : float, optional
-        l (m) and n of Eq. 1: lambda = 2 l / n.
+    length : float, optional
+        l of Eq. 1, m: the wavelength is 2 length / half_waves.
+    half_waves : float, optional
+        n of Eq. 1.
     """
 
-    amplitude: float
-    wavelength: float | None = None
-    phase: float = 0.0
-    length: float | None = None
-    half_waves: float | None = None
+    amplitude: Annotated[float, Range(least=0.0, unit="m", remedy=_OTHER_SIGN)]
+    wavelength: Annotated[float, Range(above=0.0, unit="m")] | None = None
+    phase: Annotated[float, Range(unit="rad")] = 0.0
+    length: Annotated[float, Range(above=0.0, unit="m")] | None = None
+    half_waves: Annotated[float, Range(above=0.0)] | None = None
 
     def __post_init__(self) -> None:
-        errors.number("amplitude", self.amplitude, least=0.0, unit="m", remedy="Shift the phase by pi to change the sign")
-        errors.number("phase", self.phase, unit="rad")
+        check_fields(self)
         pair = self.length is not None, self.half_waves is not None
         if (self.wavelength is None) != all(pair) or (self.wavelength is not None and any(pair)):
-            raise InputError("wavelength", self.wavelength, "give either wavelength, or length and half_waves, not both")
+            allowed = "give either wavelength, or length and half_waves, not both"
+            raise InputError("wavelength", self.wavelength, allowed)
         if self.wavelength is None:
-            length = errors.number("length", self.length, above=0.0, unit="m")
-            half_waves = errors.number("half_waves", self.half_waves, above=0.0)
-            object.__setattr__(self, "wavelength", 2.0 * length / half_waves)
-        errors.number("wavelength", self.wavelength, above=0.0, unit="m")
+            wavelength = Range(above=0.0, unit="m").checked(
+                "wavelength", 2.0 * self.length / self.half_waves
+            )
+            object.__setattr__(self, "wavelength", wavelength)
 
     @property
     def shortest(self) -> float:
@@ -102,18 +107,21 @@ class Table:
 
     Attributes
     ----------
-    x, r : array_like, shape (n,)
-        m; x ascending, at least two points.
+    x : array_like, shape (n,)
+        m from the bridge entrance, ascending, at least two points.
+    r : array_like, shape (n,)
+        m, one for each x; linear between.
     """
 
-    x: np.ndarray
-    r: np.ndarray
+    x: Annotated[np.ndarray, Range(unit="m")]
+    r: Annotated[np.ndarray, Range(unit="m")]
 
     def __post_init__(self) -> None:
         x = errors.numbers("x", self.x, unit="m")
         r = errors.numbers("r", self.r, count=len(x), unit="m")
         if len(x) < 2 or np.any(np.diff(x) <= 0):
-            raise InputError("x", self.x, "must ascend and hold at least two points", "Sort it and remove doubles")
+            allowed = "must ascend and hold at least two points"
+            raise InputError("x", self.x, allowed, "Sort it and remove doubles")
         object.__setattr__(self, "x", errors.frozen(x))
         object.__setattr__(self, "r", errors.frozen(r))
 
@@ -197,14 +205,16 @@ class Track:
         for direction in ("vertical", "lateral"):
             given = getattr(self, direction)
             sides = (given.left, given.right) if isinstance(given, Rails) else (given,)
-            rails = [_combine(f"track.{direction}", g) for g in sides]
+            rails = [_combine(direction, g) for g in sides]
             result[direction, "left"], result[direction, "right"] = rails[0], rails[-1]
         return result
 
     @property
     def shortest(self) -> float:
         """Shortest length in the track, m."""
-        return min(self.rail(d, s).shortest for d in ("vertical", "lateral") for s in ("left", "right"))
+        return min(
+            self.rail(d, s).shortest for d in ("vertical", "lateral") for s in ("left", "right")
+        )
 
 
 def _combine(name: str, given: Irregularity | list | tuple | None) -> Irregularity:
@@ -213,52 +223,58 @@ def _combine(name: str, given: Irregularity | list | tuple | None) -> Irregulari
     if isinstance(given, (list, tuple)):
         return Sum(tuple(_combine(name, g) for g in given)) if given else Level()
     if not (hasattr(given, "value") and hasattr(given, "slope") and hasattr(given, "shortest")):
-        raise InputError(name, given, "must be an irregularity (value and slope), a list of them, Rails, or None")
+        raise InputError(
+            name, given, "must be an irregularity (value and slope), a list of them, Rails, or None"
+        )
     return given
 
 
 @dataclass(frozen=True)
 class Notch:
-    """A flat spot that meets the rail once a turn (Eq. 2): ``r = -(a/2) (1 - cos(2 pi (x - k A - B) / b))``.
+    """A flat spot that meets the rail once a turn (Eq. 2).
+
+    ``r = -(a/2) (1 - cos(2 pi (x - k A - B) / b))`` while x lies within b behind k A + B.
 
     Attributes
     ----------
     wheels : tuple of (car, wheel)
-        Which wheels carry it, numbered from 1.
+        Which wheels carry it: pairs [car, wheel], counted from 1, front to back, left before right.
     circumference : float
-        A, m.
+        A of Eq. 2, m.
     offset : float
-        B, m: where this wheel's notch first meets the rail, from the bridge entrance.
+        B of Eq. 2, m: where this wheel's notch first meets the rail, behind the bridge entrance.
     depth : float
-        a, m.
+        a of Eq. 2, m.
     length : float
-        b, m; not longer than the circumference.
+        b of Eq. 2, m; not longer than the circumference.
     before_entrance : bool
         Whether the turns before B (k < 0) count too. Eq. 2 starts at k = 0.
 
     Notes
     -----
-    x is the wheel's own position. A notch lowers the wheel. Wrong when the wheel cannot follow: without wheel mass and with
-    permanent contact, the force is nearly all primary damper.
+    x is the wheel's own position. A notch lowers the wheel. Wrong when the wheel cannot follow:
+    without wheel mass and with permanent contact, the force is nearly all primary damper.
     """
 
     wheels: tuple[tuple[int, int], ...]
-    circumference: float
-    offset: float
-    depth: float
-    length: float
+    circumference: Annotated[float, Range(above=0.0, unit="m")]
+    offset: Annotated[float, Range(unit="m")]
+    depth: Annotated[float, Range(least=0.0, unit="m")]
+    length: Annotated[float, Range(above=0.0, unit="m")]
     before_entrance: bool = False
 
     def __post_init__(self) -> None:
-        errors.number("circumference", self.circumference, above=0.0, unit="m")
-        errors.number("offset", self.offset, unit="m")
-        errors.number("depth", self.depth, least=0.0, unit="m")
+        check_fields(self)
         errors.number("length", self.length, above=0.0, most=self.circumference, unit="m")
-        errors.boolean("before_entrance", self.before_entrance)
         pairs = self.wheels if isinstance(self.wheels, (list, tuple)) else ()
-        if not pairs or not all(isinstance(pair, (list, tuple)) and len(pair) == 2 for pair in pairs):
+        if not pairs or not all(
+            isinstance(pair, (list, tuple)) and len(pair) == 2 for pair in pairs
+        ):
             raise InputError("wheels", self.wheels, "must list pairs [car, wheel], numbered from 1")
-        wheels = tuple(tuple(errors.integer("wheels", n, least=1) for n in pair) for pair in pairs)
+        wheels = tuple(
+            tuple(errors.integer(f"wheels[{i}]", n, least=1) for n in pair)
+            for i, pair in enumerate(pairs, start=1)
+        )
         object.__setattr__(self, "wheels", wheels)
 
     @property
@@ -270,7 +286,9 @@ class Notch:
         along = np.asarray(x, dtype=float) - self.offset
         within = np.mod(along, self.circumference)
         inside = within <= self.length
-        return inside & (along >= 0.0) if not self.before_entrance else inside, 2 * np.pi * within / self.length
+        return inside & (
+            along >= 0.0
+        ) if not self.before_entrance else inside, 2 * np.pi * within / self.length
 
     def value(self, x: np.ndarray) -> np.ndarray:
         """Return r, m."""
@@ -285,9 +303,11 @@ class Notch:
 
 @dataclass(frozen=True)
 class FadeIn:
-    """The run-up: ``r`` is zero before ``-lead_in``, grows with a half-cosine over half the lead-in, then is untouched.
+    """The run-up: ``r`` fades in before the bridge.
 
-    A function of position, so every car has the same run-up. ``lead_in = 0`` means level track before the deck.
+    It is zero before ``-lead_in``, grows with a half-cosine over half the lead-in, then is
+    untouched. A function of position, so every car has the same run-up. ``lead_in = 0`` means level
+    track before the deck.
 
     Attributes
     ----------

@@ -1,31 +1,39 @@
 r"""Trains: where their wheels are, and what the wheels exert under given support motion.
 
-Places are measured backwards from the train's first axle, which is at x = 0 at t = 0 and at x = V t later; a wheel with
-delay d (m) is at x = V t - d. Forces are those *on the deck*, up positive, so the static wheel force is negative.
+Places are measured backwards from the train's first axle, which is at x = 0 at t = 0 and at x = V t
+later; a wheel with delay d (m) is at x = V t - d. Forces are those *on the deck*, up positive, so
+the static wheel force is negative. Arrays over the wheels of a car have the shape (wheels, 2, n):
+lateral before vertical.
 
-Every car meets the same irregularity at the same place, so cars of one kind differ only by a shift in time: the rigid-deck
-forces are run once for each kind of car (and for each way it falls between the samples) and shifted.
+Every car meets the same irregularity at the same place, so cars of one kind differ only by a shift
+in time: the rigid-deck forces are run once for each kind of car (and for each way it falls between
+the samples) and shifted.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
+from typing import Annotated, Literal
 
 import numpy as np
 
 from . import errors
-from .errors import InputError
+from .errors import InputError, Range, check_fields, frozen
 from .tracks import FadeIn, Notch, Track
-from .vehicles import Vehicle
+from .vehicles import Vehicle, WheelResponse
 
-__all__ = ["CONDENSED", "AxleTrain", "Condensation", "Train", "Wheel", "steady_forces"]
+__all__ = [
+    "CONDENSED", "EXCITATIONS", "LOADS", "AnyTrain", "AxleTrain", "Car", "Condensation", "Passage", "PlacedAxle",
+    "Train", "Wheel", "steady_forces",
+]  # fmt: skip
 
 CONDENSED = ("force_y", "force_z", "moment_x", "moment_y", "moment_z")
 """The five components of a condensed load: sway, bounce, roll, pitch, yaw."""
 
 LOADS = ("wheels", "bogies", "condensed")
+EXCITATIONS = ("wheels", "car")
 
 
 @dataclass(frozen=True)
@@ -46,6 +54,8 @@ class Wheel:
         N, down positive.
     body : str
         What it carries ("front bogie").
+    x : float
+        m ahead of its car's centre.
     """
 
     car: int
@@ -55,19 +65,44 @@ class Wheel:
     side: str
     static_load: float
     body: str
+    x: float
+
+
+@dataclass(frozen=True)
+class PlacedAxle:
+    """An axle of a train.
+
+    Attributes
+    ----------
+    car : int
+        From 1.
+    delay : float
+        m behind the train's first axle.
+    wheels : tuple of Wheel
+        Left before right.
+    """
+
+    car: int
+    delay: float
+    wheels: tuple[Wheel, ...]
+
+    @property
+    def static_load(self) -> float:
+        """N, down positive."""
+        return sum(wheel.static_load for wheel in self.wheels)
 
 
 @dataclass(frozen=True)
 class Condensation:
-    """Wheel forces of one car reduced to load stations.
+    """From the wheel forces of one car to its load stations.
 
     Attributes
     ----------
-    offsets : ndarray, shape (s,)
-        Place of each station, m ahead of the car's mid-length.
-    matrix : ndarray, shape (s, 5 or 3, 2 wheels)
-        Components F_y, F_z, M_x, M_y, M_z about the station's point on the track's centre line at rail level; without
-        the couples M_y, M_z where a station is one axle.
+    offsets : ndarray, shape (stations,)
+        m ahead of the car's centre.
+    matrix : ndarray, shape (stations, 3 or 5, wheels, 2)
+        Rows F_y, F_z, M_x about the track's centre line, and M_y, M_z where a station stands for
+        several axles.
     """
 
     offsets: np.ndarray
@@ -75,7 +110,241 @@ class Condensation:
 
 
 @dataclass(frozen=True)
-class Train:
+class Car:
+    """A car in its train.
+
+    Attributes
+    ----------
+    number : int
+        From 1, front to back.
+    centre : float
+        Mid-length, m behind the train's first axle; of bare axle loads the first axle.
+    axles : tuple of PlacedAxle
+        Front to back.
+    vehicle : Vehicle or None
+        None: bare axle loads, whose forces are the static ones whatever rail and deck do.
+    notches : tuple of (Notch, tuple of int)
+        Notches of its wheels, and which of them (from 0) each is on.
+    """
+
+    number: int
+    centre: float
+    axles: tuple[PlacedAxle, ...]
+    vehicle: Vehicle | None = None
+    notches: tuple[tuple[Notch, tuple[int, ...]], ...] = ()
+
+    @cached_property
+    def wheels(self) -> tuple[Wheel, ...]:
+        """All wheels, axle by axle."""
+        return tuple(wheel for axle in self.axles for wheel in axle.wheels)
+
+    @cached_property
+    def static_forces(self) -> np.ndarray:
+        """Static wheel forces on the deck, N, shape (wheels, 2)."""
+        return frozen(np.array([[0.0, -wheel.static_load] for wheel in self.wheels]))
+
+    def condensation(self, loads: str) -> Condensation:
+        """Return how the wheel forces become load stations: axles, bogies or the car's centre.
+
+        The resultant at a point of the track's centre line at rail level: F_y, F_z,
+        M_x = sum y F_z, M_y = -sum x F_z, M_z = sum x F_y, with x from the station.
+        """
+        errors.choice("loads", loads, LOADS)
+        if self.vehicle is None and loads != "wheels":
+            allowed = "a train of bare axles has no cars to condense"
+            raise InputError("loads", loads, allowed, "Use loads = 'wheels'")
+        if loads == "wheels":
+            stations = [axle.wheels for axle in self.axles]
+        elif loads == "bogies":
+            bodies = dict.fromkeys(wheel.body for wheel in self.wheels)
+            stations = [[w for w in self.wheels if w.body == body] for body in bodies]
+        else:
+            stations = [self.wheels]
+        offsets = np.zeros(len(stations))
+        matrix = np.zeros((len(stations), 3 if loads == "wheels" else 5, len(self.wheels), 2))
+        for s, station in enumerate(stations):
+            if loads != "condensed":
+                offsets[s] = np.mean([wheel.x for wheel in station])
+            for wheel in station:
+                w = wheel.number - 1
+                matrix[s, 0, w, 0] = matrix[s, 1, w, 1] = 1.0
+                matrix[s, 2, w, 1] = wheel.y
+                if loads != "wheels":
+                    matrix[s, 3, w, 1] = -(wheel.x - offsets[s])
+                    matrix[s, 4, w, 0] = wheel.x - offsets[s]
+        return Condensation(offsets, matrix)
+
+
+@dataclass(frozen=True)
+class Passage:
+    """How a train passes: how fast, sampled how finely and how long, from how far.
+
+    Attributes
+    ----------
+    speed : float
+        m/s.
+    time_step : float
+        s.
+    samples : int
+        Samples from t = 0, when the first axle enters.
+    lead_in : float
+        Run-up on the irregular track, m; see `FadeIn`.
+    excitation : {"wheels", "car"}
+        Whether every wheel meets the track at its own place, or all wheels of a car at the car's
+        front end, length/2 ahead of its middle (a guess at the paper's reading).
+    """
+
+    speed: float
+    time_step: float
+    samples: int
+    lead_in: float = 0.0
+    excitation: Literal["wheels", "car"] = "wheels"
+
+    @property
+    def advance(self) -> float:
+        """Travel in one time step, m."""
+        return self.speed * self.time_step
+
+
+class AnyTrain:
+    """What every train answers, whether its cars have suspension or not.
+
+    Attributes
+    ----------
+    formation : tuple of Car
+        Front to back.
+    """
+
+    formation: tuple[Car, ...]
+    notches: tuple[Notch, ...] = ()
+
+    @cached_property
+    def placed_axles(self) -> tuple[PlacedAxle, ...]:
+        """All axles, car by car."""
+        return tuple(axle for car in self.formation for axle in car.axles)
+
+    @cached_property
+    def wheels(self) -> tuple[Wheel, ...]:
+        """All wheels, car by car."""
+        return tuple(wheel for car in self.formation for wheel in car.wheels)
+
+    @property
+    def length(self) -> float:
+        """First to last axle, m."""
+        return max(axle.delay for axle in self.placed_axles)
+
+    def car(self, number: int) -> Car:
+        """Return a car by its number, from 1, front to back."""
+        number = errors.integer("car", number, least=1, most=len(self.formation))
+        return self.formation[number - 1]
+
+    def kinds(self) -> list[tuple[Vehicle, list[Car]]]:
+        """Return each kind of vehicle with the cars that are of it; none of bare axle loads."""
+        found: dict[int, tuple[Vehicle, list[Car]]] = {}
+        for car in self.formation:
+            if car.vehicle is not None:
+                found.setdefault(id(car.vehicle), (car.vehicle, []))[1].append(car)
+        return list(found.values())
+
+    def rigid_forces(self, track: Track, passage: Passage) -> list[np.ndarray]:
+        """Return the wheel forces of every car on a rigid deck, without their static part.
+
+        Returns
+        -------
+        list of ndarray, one for each car, shape (wheels of the car, 2, samples)
+            N on the deck, lateral before vertical.
+        """
+
+        def zeros(car: Car) -> np.ndarray:
+            return np.zeros((len(car.wheels), 2, passage.samples))
+
+        return self._on_rigid_deck(Vehicle.sampled, zeros, track, passage)
+
+    def rigid_accelerations(self, track: Track, passage: Passage) -> list[np.ndarray]:
+        """Return the accelerations of every car body on a rigid deck, m/s2.
+
+        Returns
+        -------
+        list of ndarray, one for each car, shape (3, 2, samples)
+            Places as for `Vehicle.sampled_body`.
+        """
+
+        def zeros(car: Car) -> np.ndarray:
+            return np.zeros((3, 2, passage.samples))
+
+        return self._on_rigid_deck(Vehicle.sampled_body, zeros, track, passage)
+
+    def _on_rigid_deck(
+        self,
+        response: Callable[[Vehicle, float], WheelResponse],
+        zeros: Callable[[Car], np.ndarray],
+        track: Track,
+        passage: Passage,
+    ) -> list[np.ndarray]:
+        """Run each kind of car once on the irregularity, and shift what it answers in time."""
+        errors.choice("excitation", passage.excitation, EXCITATIONS)
+        known: dict[tuple, np.ndarray] = {}
+        result = []
+        for car in self.formation:
+            if car.vehicle is None:
+                result.append(zeros(car))
+                continue
+            front = car.axles[0].delay
+            shift = int(np.floor(front / passage.advance + 1e-6))
+            fraction = max(round(front / passage.advance - shift, 6), 0.0)
+            key = id(car.vehicle), fraction, car.notches
+            if key not in known:
+                u = _rail_input(car, track, passage, fraction)
+                if u.any():
+                    known[key] = response(car.vehicle, passage.time_step)(u)
+                else:
+                    known[key] = np.zeros((*zeros(car).shape[:2], u.shape[-1]))
+            first = known[key].shape[-1] - passage.samples - shift
+            own = known[key][..., max(first, 0) : first + passage.samples]
+            # A car whose run-up starts after t = 0 stands on level track until then.
+            result.append(np.pad(own, ((0, 0), (0, 0), (max(-first, 0), 0))) if first < 0 else own)
+        return result
+
+
+def _rail_input(car: Car, track: Track, passage: Passage, fraction: float) -> np.ndarray:
+    """Return k r + c r' of one car from its run-up on, shape (wheels, 2, n).
+
+    Local sample j has the front axle at (j - fraction) V h.
+    """
+    vehicle, speed = car.vehicle, passage.speed
+    before = int(np.ceil(passage.lead_in / passage.advance))
+    local = (np.arange(-before, passage.samples) - fraction) * passage.advance
+    front = car.wheels[0].x
+    rails = {
+        (direction, side): FadeIn(track.rail(direction, side), passage.lead_in)
+        for direction in ("lateral", "vertical")
+        for side in ("left", "right")
+    }
+    met: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
+    u = np.empty((len(car.wheels), 2, len(local)))
+    for i, wheel in enumerate(car.wheels):
+        behind = front - (wheel.x if passage.excitation == "wheels" else vehicle.length / 2)
+        x = local - behind
+        for j, direction in enumerate(("lateral", "vertical")):
+            rail = rails[direction, wheel.side]
+            key = id(rail.inner), behind
+            if key not in met:
+                met[key] = rail.value(x), speed * rail.slope(x)
+            r, rate = met[key]
+            if direction == "vertical":
+                for notch, wheels in car.notches:
+                    if wheel.number in wheels:
+                        # Eq. 2 runs on the wheel's own place, wherever the rail's irregularity is
+                        # taken.
+                        own = local - (front - wheel.x)
+                        r, rate = r + notch.value(own), rate + speed * notch.slope(own)
+            stiffness, damping = vehicle.contact_stiffness[i, j], vehicle.contact_damping[i, j]
+            u[i, j] = stiffness * r + damping * rate
+    return u
+
+
+@dataclass(frozen=True)
+class Train(AnyTrain):
     """Cars with suspension in a row.
 
     Attributes
@@ -90,278 +359,129 @@ class Train:
     """
 
     vehicle: Vehicle | tuple[Vehicle, ...]
-    cars: int | None = None
-    car_spacing: float | None = None
+    cars: Annotated[int, Range(least=1, most=1000, whole=True)] | None = None
+    car_spacing: Annotated[float, Range(above=0.0, unit="m")] | None = None
     notches: tuple[Notch, ...] = ()
 
     def __post_init__(self) -> None:
+        several = self.vehicle
         if isinstance(self.vehicle, Vehicle):
-            object.__setattr__(
-                self, "cars", errors.integer("train.cars", 1 if self.cars is None else self.cars, least=1, most=1000)
-            )
+            object.__setattr__(self, "cars", 1 if self.cars is None else self.cars)
+        elif not isinstance(several, (list, tuple)) or not several:
+            raise InputError("vehicle", several, "must be a Vehicle or one Vehicle for each car")
+        elif not all(isinstance(vehicle, Vehicle) for vehicle in several):
+            raise InputError("vehicle", several, "must be a Vehicle or one Vehicle for each car")
         else:
-            several = isinstance(self.vehicle, (list, tuple)) and len(self.vehicle) > 0
-            if not several or not all(isinstance(v, Vehicle) for v in self.vehicle):
-                raise InputError("train.vehicle", self.vehicle, "must be a Vehicle or one Vehicle for each car")
-            if self.cars not in (None, len(self.vehicle)):
-                raise InputError("train.cars", self.cars, f"must be the number of vehicles given, {len(self.vehicle)}")
-            object.__setattr__(self, "cars", len(self.vehicle))
-            object.__setattr__(self, "vehicle", tuple(self.vehicle))
-        if self.car_spacing is not None:
-            errors.number("train.car_spacing", self.car_spacing, above=0.0, unit="m")
-        if not isinstance(self.notches, (list, tuple)) or not all(isinstance(n, Notch) for n in self.notches):
-            raise InputError("train.notch", self.notches, "must be a list of notches", "Put a single one into a list, too")
+            if self.cars not in (None, len(several)):
+                allowed = f"must be the number of vehicles given, {len(several)}"
+                raise InputError("cars", self.cars, allowed)
+            object.__setattr__(self, "cars", len(several))
+            object.__setattr__(self, "vehicle", tuple(several))
+        check_fields(self)
+        if not isinstance(self.notches, (list, tuple)) or not all(
+            isinstance(notch, Notch) for notch in self.notches
+        ):
+            allowed = "must be a list of notches"
+            raise InputError("notches", self.notches, allowed, "Put a single one into a list, too")
         object.__setattr__(self, "notches", tuple(self.notches))
-        known = {(w.car, w.number) for w in self.wheels}
-        for notch in self.notches:
+        self._refuse_unknown_wheels()
+        self._refuse_overlap()
+
+    def _refuse_unknown_wheels(self) -> None:
+        known = {(wheel.car, wheel.number) for wheel in self.wheels}
+        for i, notch in enumerate(self.notches, start=1):
             for wheel in notch.wheels:
                 if wheel not in known:
-                    raise InputError("train.notch.wheels", wheel, f"no such [car, wheel]; cars 1 to {self.cars}", "Count from 1")
-        ends = [(d.min(), d.max()) for d in (self._delays(c) for c in range(self.cars))]
-        for (_, rear), (front, _) in zip(ends[:-1], ends[1:], strict=True):
-            if front <= rear:
-                raise InputError("train.car_spacing", self.car_spacing, "cars overlap", "Use at least the vehicle's length")
+                    allowed = f"no such [car, wheel]; cars 1 to {self.cars}"
+                    raise InputError(f"notches[{i}].wheels", wheel, allowed, "Count from 1")
+
+    def _refuse_overlap(self) -> None:
+        for ahead, car in zip(self.formation[:-1], self.formation[1:], strict=True):
+            if car.axles[0].delay <= ahead.axles[-1].delay:
+                remedy = "Use at least the vehicle's length"
+                raise InputError("car_spacing", self.car_spacing, "cars overlap", remedy)
 
     @cached_property
     def vehicles(self) -> tuple[Vehicle, ...]:
         """The vehicle of each car."""
-        return self.vehicle if isinstance(self.vehicle, tuple) else (self.vehicle,) * self.cars
+        several = isinstance(self.vehicle, tuple)
+        return self.vehicle if several else (self.vehicle,) * self.cars
 
     @cached_property
     def centres(self) -> np.ndarray:
         """Mid-length of each car, m behind the first axle, shape (cars,)."""
         lengths = np.array([v.length for v in self.vehicles])
-        steps = np.full(self.cars - 1, self.car_spacing) if self.car_spacing else (lengths[:-1] + lengths[1:]) / 2
-        return np.concatenate([[0.0], np.cumsum(steps)]) + max(c.x for c in self.vehicles[0].contacts)
-
-    def _delays(self, car: int) -> np.ndarray:
-        return self.centres[car] - np.array([c.x for c in self.vehicles[car].contacts])
+        steps = (lengths[:-1] + lengths[1:]) / 2
+        if self.car_spacing:
+            steps = np.full(self.cars - 1, self.car_spacing)
+        return np.concatenate([[0.0], np.cumsum(steps)]) + self.vehicles[0].axles[0].x
 
     @cached_property
-    def wheels(self) -> tuple[Wheel, ...]:
-        """All wheels, car by car."""
+    def formation(self) -> tuple[Car, ...]:
+        """Every car in its place, front to back."""
         result = []
-        for car, v in enumerate(self.vehicles):
-            for i, (c, d) in enumerate(zip(v.contacts, self._delays(car), strict=True), start=1):
-                result.append(Wheel(car + 1, i, float(d), c.y, "right" if c.y < 0 else "left", c.static_load, c.body))
+        for number, (vehicle, centre) in enumerate(
+            zip(self.vehicles, self.centres.tolist(), strict=True), start=1
+        ):
+            placed = []
+            for axle in vehicle.axles:
+                wheels = []
+                for w in axle.wheels:
+                    contact = vehicle.contacts[w]
+                    side = "right" if contact.y < 0 else "left"
+                    delay = centre - contact.x
+                    place = contact.y, side, contact.static_load, contact.body, contact.x
+                    wheels.append(Wheel(number, w + 1, delay, *place))
+                placed.append(PlacedAxle(number, centre - axle.x, tuple(wheels)))
+            notched = (
+                (notch, tuple(w for c, w in notch.wheels if c == number)) for notch in self.notches
+            )
+            own = tuple((notch, wheels) for notch, wheels in notched if wheels)
+            result.append(Car(number, centre, tuple(placed), vehicle, own))
         return tuple(result)
-
-    @property
-    def length(self) -> float:
-        """First to last axle, m."""
-        return max(w.delay for w in self.wheels)
-
-    def groups(self) -> list[tuple[Vehicle, np.ndarray]]:
-        """Return each kind of vehicle with the cars (from 0) that are of it."""
-        kinds: dict[int, tuple[Vehicle, list[int]]] = {}
-        for car, v in enumerate(self.vehicles):
-            kinds.setdefault(id(v), (v, []))[1].append(car)
-        return [(v, np.array(cars)) for v, cars in kinds.values()]
-
-    def rigid_forces(
-        self, track: Track, speed: float, time_step: float, samples: int, lead_in: float, excitation: str = "wheels"
-    ) -> list[np.ndarray]:
-        """Return the wheel forces on a rigid deck, without their static part.
-
-        Parameters
-        ----------
-        track : Track
-        speed : float
-            m/s.
-        time_step : float
-            s.
-        samples : int
-            Samples from t = 0.
-        lead_in : float
-            Run-up, m; see `FadeIn`.
-        excitation : {"wheels", "car"}
-            Whether every wheel meets the track at its own place, or all wheels of a car at the car's front end, length/2 ahead
-            of its middle (a guess at the paper's reading).
-
-        Returns
-        -------
-        list of ndarray, one for each car, shape (2 wheels of the car, samples)
-            N on the deck, lateral before vertical.
-        """
-
-        def forces(v: Vehicle, u: np.ndarray) -> np.ndarray:
-            return v.sampled(time_step)(u) - u if u.any() else u
-
-        return self._rigid(forces, track, speed, time_step, samples, lead_in, excitation)
-
-    def rigid_accelerations(
-        self, track: Track, speed: float, time_step: float, samples: int, lead_in: float, excitation: str = "wheels"
-    ) -> list[np.ndarray]:
-        """Return the accelerations of every car body on a rigid deck, m/s2, each shape (6, samples).
-
-        Arguments as for `rigid_forces`, places as for `Vehicle.body_system`.
-        """
-
-        def accelerations(v: Vehicle, u: np.ndarray) -> np.ndarray:
-            system, direct = v.body_system()
-            return system.sampled(time_step)(u) + direct @ u if u.any() else np.zeros((6, u.shape[1]))
-
-        return self._rigid(accelerations, track, speed, time_step, samples, lead_in, excitation)
-
-    def _rigid(self, respond, track, speed, time_step, samples, lead_in, excitation) -> list[np.ndarray]:
-        """Run each kind of car once on the irregularity, and shift what it answers to each car's time."""
-        errors.choice("excitation", excitation, ("wheels", "car"))
-        advance = speed * time_step
-        runs: dict[tuple, np.ndarray] = {}
-        result = []
-        for car, v in enumerate(self.vehicles):
-            front = float(self._delays(car).min())
-            shift = int(np.floor(front / advance + 1e-6))
-            fraction = round(front / advance - shift, 6)
-            own = tuple((n, tuple(w for c, w in n.wheels if c == car + 1)) for n in self.notches)
-            own = tuple((n, w) for n, w in own if w)
-            key = id(v), max(fraction, 0.0), own
-            if key not in runs:
-                u = self._input(v, track, speed, time_step, samples, lead_in, excitation, key[1], own)
-                runs[key] = respond(v, u)
-            first = runs[key].shape[1] - samples - shift
-            forces = runs[key][:, max(first, 0) : first + samples]
-            # A car whose run-up starts after t = 0 stands on level track until then.
-            result.append(np.pad(forces, ((0, 0), (max(-first, 0), 0))) if first < 0 else forces)
-        return result
-
-    def _input(self, v, track, speed, time_step, samples, lead_in, excitation, fraction, notches) -> np.ndarray:
-        """Return k r + c r' of one car from its run-up on; local sample j has the front axle at (j - fraction) V h."""
-        advance = speed * time_step
-        before = int(np.ceil(lead_in / advance))
-        local = (np.arange(-before, samples) - fraction) * advance
-        front = max(c.x for c in v.contacts)
-        rails = {(d, s): FadeIn(track.rail(d, s), lead_in) for d in ("lateral", "vertical") for s in ("left", "right")}
-        met: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
-        u = np.empty((2 * len(v.contacts), len(local)))
-        for i, contact in enumerate(v.contacts):
-            behind = front - (contact.x if excitation == "wheels" else v.length / 2)
-            x = local - behind
-            for j, direction in enumerate(("lateral", "vertical")):
-                rail = rails[direction, "right" if contact.y < 0 else "left"]
-                key = id(rail.inner), behind
-                if key not in met:
-                    met[key] = rail.value(x), speed * rail.slope(x)
-                r, rate = met[key]
-                if direction == "vertical":
-                    for notch, wheels in notches:
-                        if i + 1 in wheels:
-                            # Eq. 2 runs on the wheel's own place, whichever place the rail's irregularity is taken at.
-                            own = local - (front - contact.x)
-                            r, rate = r + notch.value(own), rate + speed * notch.slope(own)
-                u[2 * i + j] = v.contact_stiffness[i, j] * r + v.contact_damping[i, j] * rate
-        return u
-
-    def condensation(self, car: int, loads: str) -> Condensation:
-        """Return how one car's wheel forces (car from 0) become load stations: axles, bogies or the car's centre.
-
-        The resultant at a point of the track's centre line at rail level: F_y, F_z, M_x = sum y F_z, M_y = -sum x F_z,
-        M_z = sum x F_y, with x from the station.
-        """
-        errors.choice("loads", loads, LOADS)
-        contacts = self.vehicles[car].contacts
-        if loads == "wheels":
-            groups = _unique([c.x for c in contacts])
-            members = [[i for i, c in enumerate(contacts) if c.x == x] for x in groups]
-        elif loads == "bogies":
-            groups = _unique([c.body for c in contacts])
-            members = [[i for i, c in enumerate(contacts) if c.body == b] for b in groups]
-        else:
-            members = [list(range(len(contacts)))]
-        places = [0.0 if loads == "condensed" else float(np.mean([contacts[i].x for i in m])) for m in members]
-        matrix = np.zeros((len(members), 3 if loads == "wheels" else 5, 2 * len(contacts)))
-        for s, (m, place) in enumerate(zip(members, places, strict=True)):
-            for i in m:
-                matrix[s, 0, 2 * i] = 1.0
-                matrix[s, 1, 2 * i + 1] = 1.0
-                matrix[s, 2, 2 * i + 1] = contacts[i].y
-                if loads != "wheels":
-                    matrix[s, 3, 2 * i + 1] = -(contacts[i].x - place)
-                    matrix[s, 4, 2 * i] = contacts[i].x - place
-        return Condensation(np.array(places), matrix)
-
-    def static_forces(self, car: int) -> np.ndarray:
-        """Return the static wheel forces of one car (from 0) on the deck, shape (2 wheels,), lateral before vertical, N."""
-        result = np.zeros(2 * len(self.vehicles[car].contacts))
-        result[1::2] = [-c.static_load for c in self.vehicles[car].contacts]
-        return result
 
 
 @dataclass(frozen=True)
-class AxleTrain:
+class AxleTrain(AnyTrain):
     """Bare axle loads: no suspension, so the wheel force is the static one whatever the deck does.
 
     Attributes
     ----------
-    axles : array_like, shape (n,)
-        m behind the first axle, ascending.
-    loads : array_like, shape (n,)
-        N, down positive.
+    axles : sequence of float
+        m behind the first axle, ascending from 0.
+    loads : sequence of float
+        N of each axle, down positive.
     """
 
-    axles: Sequence[float]
-    loads: Sequence[float]
-    cars: int = field(default=1, init=False)
-    notches: tuple[Notch, ...] = field(default=(), init=False)
+    axles: Annotated[tuple[float, ...], Range(least=0.0, unit="m")]
+    loads: Annotated[tuple[float, ...], Range(above=0.0, unit="N")]
 
     def __post_init__(self) -> None:
-        axles = errors.numbers("train.axles", self.axles, least=0.0, unit="m")
-        loads = errors.numbers("train.loads", self.loads, count=len(axles), above=0.0, unit="N")
-        if len(axles) == 0 or axles[0] != 0.0 or np.any(np.diff(axles) <= 0):
-            raise InputError(
-                "train.axles", list(self.axles), "must ascend from 0, the first axle", "Subtract the first axle's place from all"
-            )
-        object.__setattr__(self, "axles", tuple(axles.tolist()))
-        object.__setattr__(self, "loads", tuple(loads.tolist()))
-
-    @property
-    def centres(self) -> np.ndarray:
-        """The first axle stands for the train, shape (1,)."""
-        return np.zeros(1)
+        check_fields(self)
+        if len(self.loads) != len(self.axles):
+            allowed = f"must hold {len(self.axles)} numbers, it holds {len(self.loads)}"
+            raise InputError("loads", list(self.loads), allowed, "Give one load for each axle")
+        if not self.axles or self.axles[0] != 0.0 or np.any(np.diff(self.axles) <= 0):
+            allowed = "must ascend from 0, the first axle"
+            remedy = "Subtract the first axle's place from all"
+            raise InputError("axles", list(self.axles), allowed, remedy)
 
     @cached_property
-    def wheels(self) -> tuple[Wheel, ...]:
-        """One wheel for each axle, on the track's centre line."""
-        return tuple(
-            Wheel(1, i, a, 0.0, "left", p, "axle") for i, (a, p) in enumerate(zip(self.axles, self.loads, strict=True), 1)
+    def formation(self) -> tuple[Car, ...]:
+        """All axles as one car without suspension; each carries one wheel on the centre line."""
+        axles = tuple(
+            PlacedAxle(1, delay, (Wheel(1, i, delay, 0.0, "left", load, "axle", -delay),))
+            for i, (delay, load) in enumerate(zip(self.axles, self.loads, strict=True), start=1)
         )
-
-    @property
-    def length(self) -> float:
-        """First to last axle, m."""
-        return self.axles[-1]
-
-    def groups(self) -> list:
-        """Return no vehicles: nothing answers to the deck's motion."""
-        return []
-
-    def rigid_forces(self, track, speed, time_step, samples, lead_in, excitation="wheels") -> list[np.ndarray]:
-        """Return zeros: bare loads do not feel the track; see `Train.rigid_forces`."""
-        return [np.zeros((2 * len(self.axles), samples))]
-
-    def condensation(self, car: int, loads: str) -> Condensation:
-        """Return the axles as they are; there is no car to condense to."""
-        if loads != "wheels":
-            raise InputError("run.loads", loads, "a train of bare axles has no cars to condense", "Use loads = 'wheels'")
-        matrix = np.zeros((len(self.axles), 3, 2 * len(self.axles)))
-        index = np.arange(len(self.axles))
-        matrix[index, 0, 2 * index] = matrix[index, 1, 2 * index + 1] = 1.0
-        return Condensation(-np.array(self.axles), matrix)
-
-    def static_forces(self, car: int) -> np.ndarray:
-        """Return the loads as forces on the deck; see `Train.static_forces`."""
-        result = np.zeros(2 * len(self.axles))
-        result[1::2] = [-p for p in self.loads]
-        return result
+        return (Car(1, 0.0, axles),)
 
 
-def _unique(values: list) -> list:
-    """Return the distinct values in the order they come."""
-    return list(dict.fromkeys(values))
+def steady_forces(
+    vehicle: Vehicle, track: Track, speed: float, excitation: str = "wheels"
+) -> np.ndarray:
+    """Return the steady wheel forces on harmonic irregularities, which the run-up tends to.
 
-
-def steady_forces(vehicle: Vehicle, track: Track, speed: float, excitation: str = "wheels") -> np.ndarray:
-    """Return the steady wheel forces on harmonic irregularities: the closed form the run-up tends to.
+    In closed form.
 
     Parameters
     ----------
@@ -371,22 +491,27 @@ def steady_forces(vehicle: Vehicle, track: Track, speed: float, excitation: str 
     speed : float
         m/s.
     excitation : {"wheels", "car"}
+        See `Passage`.
 
     Returns
     -------
-    ndarray, shape (2 wheels,), complex
-        Amplitude and phase: force = Im(F exp(i 2 pi V t / wavelength)), with the car's mid-length at x = 0 at t = 0.
+    ndarray, shape (wheels, 2), complex
+        Amplitude and phase: force = Im(F exp(i 2 pi V t / wavelength)), with the car's mid-length
+        at x = 0 at t = 0; lateral before vertical.
     """
-    rails = {(d, s): track.rail(d, s) for d in ("lateral", "vertical") for s in ("left", "right")}
-    waves = {r.wavelength for r in rails.values() if hasattr(r, "wavelength")}
-    if len(waves) != 1 or any(np.isfinite(r.shortest) and not hasattr(r, "wavelength") for r in rails.values()):
-        raise InputError("track", None, "the steady state in closed form needs harmonic rails of one wavelength")
+    rails = [track.rail(d, s) for d in ("lateral", "vertical") for s in ("left", "right")]
+    waves = {rail.wavelength for rail in rails if hasattr(rail, "wavelength")}
+    others = any(np.isfinite(r.shortest) and not hasattr(r, "wavelength") for r in rails)
+    if len(waves) != 1 or others:
+        allowed = "the steady state in closed form needs harmonic rails of one wavelength"
+        raise InputError("track", None, allowed)
     wavelength = waves.pop()
-    motion = np.zeros(2 * len(vehicle.contacts), dtype=complex)
+    motion = np.zeros((len(vehicle.contacts), 2), dtype=complex)
     for i, contact in enumerate(vehicle.contacts):
         x = contact.x if excitation == "wheels" else vehicle.length / 2
         for j, direction in enumerate(("lateral", "vertical")):
-            rail = rails[direction, "right" if contact.y < 0 else "left"]
+            rail = track.rail(direction, "right" if contact.y < 0 else "left")
             if hasattr(rail, "wavelength"):
-                motion[2 * i + j] = rail.amplitude * np.exp(1j * (2 * np.pi * x / wavelength + rail.phase))
-    return vehicle.transfer(speed / wavelength) @ motion
+                turn = np.exp(1j * (2 * np.pi * x / wavelength + rail.phase))
+                motion[i, j] = rail.amplitude * turn
+    return np.tensordot(vehicle.transfer(speed / wavelength), motion, 2)

@@ -1,35 +1,45 @@
 r"""Rail vehicles: rigid bodies on springs and dampers.
 
-A point r of a body (measured from its centre of mass) moves by ``u + theta x r``. The stretch of a spring between two
-points is therefore linear in the freedoms, ``e = g . x - (support motion)``, and every spring adds ``k g g^T`` to the
-stiffness and ``c g g^T`` to the damping. A spring that ends on the rail makes a wheel contact: its support moves by the
-irregularity r and the deck, which enters the equations only as ``u = k r + c r'``:
+A point r of a body (measured from its centre of mass) moves by ``u + theta x r``. The stretch of a
+spring between two points is therefore linear in the freedoms, ``e = g . x - (support motion)``, and
+every spring adds ``k g g^T`` to the stiffness and ``c g g^T`` to the damping. A spring that ends on
+the rail makes a wheel contact: its support moves by the irregularity r and the deck, which enters
+the equations only as ``u = k r + c r'``:
 
     M x'' + C x' + K x = G^T u,      force on the deck = k g.x + c g.x' - u + static part.
 
-Axes: x forward, y left, z up; freedoms in the order y, z, roll, pitch, yaw. The origin of a vehicle is at rail level
-below its mid-length.
+Axes: x forward, y left, z up; freedoms in the order y, z, roll, pitch, yaw. The origin of a vehicle
+is at rail level below its mid-length. What wheels feel and exert has the shape (wheels, 2, ...):
+lateral before vertical.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Annotated
 
 import numpy as np
 from scipy.linalg import eigh
 
 from . import errors
-from .errors import InputError, frozen
-from .response import LinearSystem, SampledResponse, second_order_system
+from .errors import InputError, Range, check_fields, frozen, within
+from .response import LinearSystem, second_order_system
 from .units import G
 
 __all__ = [
-    "CAR_PARAMETERS", "FREEDOMS", "Body", "Contact", "Modes", "Spring", "Vehicle", "planar_car", "sprung_mass", "two_bogie_car",
+    "CAR_PARAMETERS", "FREEDOMS", "Axle", "Body", "Contact", "Modes", "Spring", "Vehicle", "planar_car",
+    "sprung_mass", "two_bogie_car",
 ]  # fmt: skip
 
 FREEDOMS = ("y", "z", "roll", "pitch", "yaw")
 _INERTIA_AXIS = {"roll": 0, "pitch": 1, "yaw": 2}
+_BESIDE = 1e-6
+"""Wheels nearer than this along the track (m) are on one axle: more is no rounding of input."""
+
+WheelResponse = Callable[[np.ndarray], np.ndarray]
+"""From ``k r + c r'`` at every wheel, N, shape (wheels, 2, ..., n), to what follows from it."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +49,7 @@ class Body:
     Attributes
     ----------
     name : str
+        Its name, unique in the vehicle; not "rail".
     mass : float
         kg.
     inertia : tuple of 3 floats
@@ -46,14 +57,31 @@ class Body:
     position : tuple of 3 floats
         Centre of mass in the vehicle frame, m.
     freedoms : tuple of str
-        A subset of y, z, roll, pitch, yaw. One left out is held still in space, so without z the rail does not carry the weight.
+        Some of y, z, roll, pitch, yaw. One left out is held still in space: without z the rail does
+        not carry the weight.
     """
 
     name: str
-    mass: float
-    inertia: tuple[float, float, float]
-    position: tuple[float, float, float]
+    mass: Annotated[float, Range(above=0.0, unit="kg")]
+    inertia: Annotated[tuple[float, float, float], Range(least=0.0, unit="kg m2")]
+    position: Annotated[tuple[float, float, float], Range(unit="m")]
     freedoms: tuple[str, ...] = FREEDOMS
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if self.name == "rail":
+            raise InputError("name", self.name, "must not be 'rail', which is no body")
+        given = self.freedoms
+        distinct = len(set(map(str, given))) if isinstance(given, (list, tuple)) else 0
+        if not distinct or distinct != len(given):
+            allowed = f"must list each of {' '.join(FREEDOMS)} at most once"
+            raise InputError("freedoms", given, allowed)
+        for freedom in given:
+            errors.choice("freedoms", freedom, FREEDOMS)
+            if freedom in _INERTIA_AXIS:
+                inertia = self.inertia[_INERTIA_AXIS[freedom]]
+                errors.number(f"inertia in {freedom}", inertia, above=0.0, unit="kg m2")
+        object.__setattr__(self, "freedoms", tuple(given))
 
 
 @dataclass(frozen=True)
@@ -63,7 +91,7 @@ class Spring:
     Attributes
     ----------
     from_, to : str
-        Names of bodies; one of them may be ``"rail"``, which makes a wheel contact.
+        Names of bodies; one of them may be "rail", which makes a wheel contact.
     at : tuple of 3 floats
         Where it stands in the vehicle frame, m; rigidly tied to both ends.
     stiffness : tuple of 2 floats
@@ -74,19 +102,48 @@ class Spring:
 
     from_: str
     to: str
-    at: tuple[float, float, float]
-    stiffness: tuple[float, float]
-    damping: tuple[float, float]
+    at: Annotated[tuple[float, float, float], Range(unit="m")]
+    stiffness: Annotated[tuple[float, float], Range(least=0.0, unit="N/m")]
+    damping: Annotated[tuple[float, float], Range(least=0.0, unit="N s/m")]
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if self.from_ == self.to:
+            raise InputError("to", self.to, "must differ from the other end")
+        if max(*self.stiffness, *self.damping) == 0.0:
+            allowed = "spring and damper are both zero"
+            raise InputError("stiffness", list(self.stiffness), allowed, "Remove it")
+
+    @property
+    def on_rail(self) -> bool:
+        """Whether it makes a wheel contact."""
+        return "rail" in (self.from_, self.to)
 
 
 @dataclass(frozen=True)
 class Contact:
-    """A wheel: its body ("bogie"), its place in the vehicle frame (x, y, m) and its static load (N, down positive)."""
+    """A wheel: its body, its place in the vehicle frame (m), its static load (N, down positive)."""
 
     body: str
     x: float
     y: float
     static_load: float
+
+
+@dataclass(frozen=True)
+class Axle:
+    """Wheels side by side: they meet the deck at one place.
+
+    Attributes
+    ----------
+    x : float
+        m ahead of the vehicle's mid-length.
+    wheels : tuple of int
+        Which of the vehicle's contacts, from 0, left before right.
+    """
+
+    x: float
+    wheels: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -100,8 +157,8 @@ class Modes:
     damping_ratios : ndarray, shape (n,)
         Zero for natural modes.
     shapes : ndarray, shape (freedoms, n)
-        Mass-normalised if natural; complex, largest entry 1, if damped. Equal frequencies have no unique shapes: only
-        the subspace they span means something.
+        Mass-normalised if natural; complex, largest entry 1, if damped. Equal frequencies have no
+        unique shapes: only the subspace they span means something.
     labels : tuple of str
         Freedoms, for instance ``car z``.
     names : tuple of str
@@ -118,7 +175,11 @@ class Modes:
         """Return a pandas DataFrame with one row a mode."""
         import pandas as pd
 
-        columns = {"frequency (Hz)": self.frequencies_hz, "damping ratio": self.damping_ratios, "moves most": self.names}
+        columns = {
+            "frequency (Hz)": self.frequencies_hz,
+            "damping ratio": self.damping_ratios,
+            "moves most": self.names,
+        }
         return pd.DataFrame(columns, index=pd.RangeIndex(1, len(self.names) + 1, name="mode"))
 
 
@@ -129,36 +190,44 @@ class Vehicle:
     Attributes
     ----------
     name : str
+        For people.
     bodies : tuple of Body
+        Car body, bogies.
     springs : tuple of Spring
+        Suspension and contacts.
     length : float
-        Over couplers, m; the default distance between cars.
+        m over couplers; the default distance between cars.
     static_wheelset_mass : float
-        Mass of one wheelset, kg, carried straight by the rail. Only its weight counts. Wrong above the frequency where
-        the wheelset's inertia force reaches the contact force, about sqrt(k/m)/(2 pi) of the primary suspension.
+        kg of one wheelset, carried straight by the rail. Only its weight counts. Wrong above the
+        frequency where the wheelset's inertia force reaches the contact force, about
+        sqrt(k/m)/(2 pi) of the primary suspension.
 
     Raises
     ------
     InputError
-        A name that is not unique or unknown, a mass, inertia or length that is not positive, negative stiffness or
-        damping, no contact with the rail, a freedom that no spring holds, or a wheel lifted off the rail at rest.
+        A name that is not unique or unknown, no contact with the rail, a freedom that no spring
+        holds, or a wheel lifted off the rail at rest.
     """
 
     name: str
     bodies: tuple[Body, ...]
     springs: tuple[Spring, ...]
-    length: float
-    static_wheelset_mass: float = 0.0
-    labels: tuple[str, ...] = field(init=False)
+    length: Annotated[float, Range(above=0.0, unit="m")]
+    static_wheelset_mass: Annotated[float, Range(least=0.0, unit="kg")] = 0.0
+    labels: tuple[str, ...] = field(init=False, default=())
 
     def __post_init__(self) -> None:
-        _check(self)
-        labels = tuple(f"{b.name} {f}" for b in self.bodies for f in FREEDOMS if f in b.freedoms)
-        object.__setattr__(self, "labels", labels)
-        if len(labels) == 0:
-            raise InputError(f"vehicle {self.name}: freedoms", None, "no body has a freedom")
-        _refuse_mechanism(self)
-        _refuse_lifted_wheel(self)
+        with within(source=f"vehicle {self.name}"):
+            check_fields(self)
+            _refuse_wrong_ends(self)
+            labels = tuple(
+                f"{b.name} {f}" for b in self.bodies for f in FREEDOMS if f in b.freedoms
+            )
+            object.__setattr__(self, "labels", labels)
+            _refuse_mechanism(self)
+            _refuse_lifted_wheel(self)
+
+    # ---- matrices
 
     @cached_property
     def mass_matrix(self) -> np.ndarray:
@@ -167,23 +236,15 @@ class Vehicle:
         for body in self.bodies:
             for f in FREEDOMS:
                 if f in body.freedoms:
-                    diagonal.append(body.inertia[_INERTIA_AXIS[f]] if f in _INERTIA_AXIS else body.mass)
+                    rotates = f in _INERTIA_AXIS
+                    diagonal.append(body.inertia[_INERTIA_AXIS[f]] if rotates else body.mass)
         return frozen(np.diag(diagonal).astype(float))
 
-    @cached_property
-    def _rows(self) -> list[tuple[Spring, int, np.ndarray]]:
-        """Each spring and direction (0 lateral, 1 vertical) with its stretch row, shape (n,)."""
-        result = []
-        for spring in self.springs:
-            ends = [self._point_rows(end, spring.at) for end in (spring.from_, spring.to)]
-            # The body end counts positive, so that a contact's stretch is (body) - (rail).
-            sign = 1.0 if spring.to == "rail" else -1.0
-            stretch = sign * (ends[0] - ends[1])
-            result += [(spring, direction, stretch[direction]) for direction in (0, 1)]
-        return result
-
     def _point_rows(self, name: str, at: tuple[float, float, float]) -> np.ndarray:
-        """Lateral and vertical motion of a point tied to a body, as rows over the freedoms, shape (2, n)."""
+        """Lateral and vertical motion of a point tied to a body, as rows over the freedoms.
+
+        Shape (2, n).
+        """
         rows = np.zeros((2, len(self.labels)))
         for body in self.bodies:
             if body.name != name:
@@ -194,84 +255,124 @@ class Vehicle:
                 rows[:, self.labels.index(f"{name} {f}")] = motion[f]
         return rows
 
-    def _assemble(self, attribute: str) -> np.ndarray:
+    def _stretch_rows(self, spring: Spring) -> np.ndarray:
+        """Lateral and vertical stretch of a spring, as rows over the freedoms, shape (2, n)."""
+        from_, to = (self._point_rows(end, spring.at) for end in (spring.from_, spring.to))
+        # The body end counts positive, so that a contact's stretch is (body) - (rail).
+        return from_ - to if spring.to == "rail" else to - from_
+
+    def _assembled(self, attribute: str) -> np.ndarray:
         total = np.zeros((len(self.labels),) * 2)
-        for spring, direction, row in self._rows:
-            total += getattr(spring, attribute)[direction] * np.outer(row, row)
-        return total
+        for spring in self.springs:
+            for value, row in zip(
+                getattr(spring, attribute), self._stretch_rows(spring), strict=True
+            ):
+                total += value * np.outer(row, row)
+        return frozen(total)
 
     @cached_property
     def stiffness_matrix(self) -> np.ndarray:
         """K, shape (n, n); N/m and N m. Without the gravity stiffness of the high body."""
-        return frozen(self._assemble("stiffness"))
+        return self._assembled("stiffness")
 
     @cached_property
     def damping_matrix(self) -> np.ndarray:
         """C, shape (n, n); N s/m and N m s."""
-        return frozen(self._assemble("damping"))
+        return self._assembled("damping")
+
+    # ---- wheels
 
     @cached_property
-    def _contact_springs(self) -> list[Spring]:
-        springs = [s for s in self.springs if "rail" in (s.from_, s.to)]
-        return sorted(springs, key=lambda s: (-s.at[0], -s.at[1]))
+    def _standing(self) -> tuple[tuple[Axle, ...], tuple[Spring, ...]]:
+        """Axles, and the springs of the contacts in their order: front to back, left before right."""
+        rows: list[list[Spring]] = []
+        for spring in sorted((s for s in self.springs if s.on_rail), key=lambda s: -s.at[0]):
+            if not rows or rows[-1][0].at[0] - spring.at[0] > _BESIDE:
+                rows.append([])
+            rows[-1].append(spring)
+        axles, springs = [], []
+        for row in rows:
+            wheels = range(len(springs), len(springs) + len(row))
+            axles.append(Axle(row[0].at[0], tuple(wheels)))
+            springs += sorted(row, key=lambda s: -s.at[1])
+        return tuple(axles), tuple(springs)
 
-    def _contact_rows(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Stretch rows of the contacts, shape (2 contacts, n), lateral before vertical, with k and c, shape (2 contacts,)."""
-        found = [(s, row) for s, _, row in self._rows if "rail" in (s.from_, s.to)]
-        # Sorted as the contacts are; sorting is stable, so lateral stays before vertical.
-        rows = np.array([row for _, row in sorted(found, key=lambda pair: (-pair[0].at[0], -pair[0].at[1]))])
-        k = np.array([v for s in self._contact_springs for v in s.stiffness])
-        c = np.array([v for s in self._contact_springs for v in s.damping])
-        return rows, k, c
+    @property
+    def axles(self) -> tuple[Axle, ...]:
+        """Wheels that stand side by side, front to back."""
+        return self._standing[0]
 
     @property
     def weight(self) -> float:
         """Total weight, N, wheelsets included."""
-        axles = len({s.at[0] for s in self._contact_springs})
-        return (sum(b.mass for b in self.bodies) + axles * self.static_wheelset_mass) * G
+        masses = sum(b.mass for b in self.bodies) + len(self.axles) * self.static_wheelset_mass
+        return masses * G
 
     @cached_property
     def contacts(self) -> tuple[Contact, ...]:
-        """Wheels, front to back, left before right, with the static loads of the car at rest on a level track."""
-        gravity = np.array([m * G * lbl.endswith(" z") for m, lbl in zip(np.diag(self.mass_matrix), self.labels, strict=True)])
+        """Wheels, front to back, left before right, with the static loads of the car at rest."""
+        masses = zip(np.diag(self.mass_matrix), self.labels, strict=True)
+        gravity = np.array([mass * G * label.endswith(" z") for mass, label in masses])
         rest = np.linalg.solve(self.stiffness_matrix, -gravity)
-        rows, k, _ = self._contact_rows()
-        loads = -(k * (rows @ rest))[1::2]
-        springs = self._contact_springs
-        per_axle = {x: sum(s.at[0] == x for s in springs) for x in {s.at[0] for s in springs}}
-        own = [self.static_wheelset_mass * G / per_axle[s.at[0]] for s in springs]
-        bodies = [s.to if s.from_ == "rail" else s.from_ for s in springs]
-        return tuple(
-            Contact(b, s.at[0], s.at[1], float(load + extra))
-            for b, s, load, extra in zip(bodies, springs, loads, own, strict=True)
-        )
+        stretch = self._contact_rows @ rest
+        result = []
+        for axle in self.axles:
+            own = self.static_wheelset_mass * G / len(axle.wheels)
+            for wheel in axle.wheels:
+                spring = self._standing[1][wheel]
+                body = spring.to if spring.from_ == "rail" else spring.from_
+                load = -(self.contact_stiffness[wheel, 1] * stretch[wheel, 1])
+                result.append(Contact(body, axle.x, spring.at[1], float(load + own)))
+        return tuple(result)
+
+    @cached_property
+    def _contact_rows(self) -> np.ndarray:
+        """Stretch rows of the contacts, shape (contacts, 2, n)."""
+        return frozen(np.array([self._stretch_rows(s) for s in self._standing[1]]))
 
     @cached_property
     def contact_stiffness(self) -> np.ndarray:
         """Lateral and vertical stiffness of every contact, N/m, shape (contacts, 2)."""
-        return frozen(self._contact_rows()[1].reshape(-1, 2))
+        return frozen(np.array([s.stiffness for s in self._standing[1]]))
 
     @cached_property
     def contact_damping(self) -> np.ndarray:
         """Lateral and vertical damping of every contact, N s/m, shape (contacts, 2)."""
-        return frozen(self._contact_rows()[2].reshape(-1, 2))
+        return frozen(np.array([s.damping for s in self._standing[1]]))
 
-    def system(self) -> LinearSystem:
-        """Return the vehicle with input ``k r + c r'`` and output ``k g.x + c g.x'``, both shape (2 contacts,), N.
-
-        The force on the deck without its static part is output minus input.
-        """
-        return self._system
+    # ---- response
 
     @cached_property
-    def _system(self) -> LinearSystem:
-        rows, k, c = self._contact_rows()
-        output = np.hstack([k[:, None] * rows, c[:, None] * rows])
-        return second_order_system(self.mass_matrix, self.damping_matrix, self.stiffness_matrix, rows.T, output)
+    def system(self) -> LinearSystem:
+        """The vehicle with input ``k r + c r'`` and output ``k g.x + c g.x'``, both in N.
 
-    def sampled(self, time_step: float) -> SampledResponse:
-        """Return `system` ready to run at one time step (s)."""
-        return self.system().sampled(time_step)
+        Both are all contacts in one row, lateral before vertical. The force on the deck without its
+        static part is output minus input.
+        """
+        rows = self._contact_rows.reshape(-1, len(self.labels))
+        k, c = self.contact_stiffness.reshape(-1, 1), self.contact_damping.reshape(-1, 1)
+        output = np.hstack([k * rows, c * rows])
+        matrices = self.mass_matrix, self.damping_matrix, self.stiffness_matrix
+        return second_order_system(*matrices, rows.T, output)
+
+    def sampled(self, time_step: float) -> WheelResponse:
+        """Return what gives the forces on the deck without their static part, N, from ``k r + c
+        r'``.
+
+        Parameters
+        ----------
+        time_step : float
+            s.
+        """
+        respond = self.system.sampled(time_step)
+
+        def forces(u: np.ndarray) -> np.ndarray:
+            inputs = u.reshape(-1, *u.shape[2:])
+            result = respond(inputs)
+            result -= inputs
+            return result.reshape(u.shape)
+
+        return forces
 
     @property
     def body(self) -> Body:
@@ -280,121 +381,130 @@ class Vehicle:
 
     @property
     def body_places(self) -> dict[str, float]:
-        """Where the car body's motion is told, m ahead of mid-length: above its foremost and rearmost springs, and between."""
+        """Where the car body's motion is taken, m ahead of mid-length.
+
+        Above its foremost and rearmost springs, and at its centre of mass.
+        """
         on = [s.at[0] for s in self.springs if self.body.name in (s.from_, s.to)]
         return {"front": max(on), "middle": self.body.position[0], "rear": min(on)}
 
-    def body_system(self) -> tuple[LinearSystem, np.ndarray]:
-        """Return how the car body's accelerations follow from the input of `system`.
+    def sampled_body(self, time_step: float) -> WheelResponse:
+        """Return what gives the car body's accelerations, m/s2, from ``k r + c r'``.
 
-        At the height of the body's centre of mass, at each of `body_places`: lateral, vertical, so six outputs (m/s2).
+        At the height of the body's centre of mass, at each of `body_places`, lateral and vertical:
+        shape (3, 2, n) from shape (wheels, 2, n).
 
-        Returns
-        -------
-        LinearSystem
-            What its state gives.
-        ndarray, shape (6, 2 contacts)
-            What the input adds directly; zero where no spring of the body ends on the rail.
+        Parameters
+        ----------
+        time_step : float
+            s.
         """
         height = self.body.position[2]
-        points = [self._point_rows(self.body.name, (x, 0.0, height)) for x in self.body_places.values()]
-        accelerations = np.linalg.solve(self.mass_matrix, np.vstack(points).T).T
+        points = [(x, 0.0, height) for x in self.body_places.values()]
+        moving = np.vstack([self._point_rows(self.body.name, point) for point in points])
+        accelerations = np.linalg.solve(self.mass_matrix, moving.T).T
         state = -accelerations @ np.hstack([self.stiffness_matrix, self.damping_matrix])
-        return replace(self.system(), c=state), accelerations @ self._contact_rows()[0].T
+        respond = replace(self.system, c=state).sampled(time_step)
+        # Zero where no spring of the body ends on the rail.
+        direct = accelerations @ self._contact_rows.reshape(-1, len(self.labels)).T
+
+        def body_accelerations(u: np.ndarray) -> np.ndarray:
+            inputs = u.reshape(-1, u.shape[-1])
+            return (respond(inputs) + direct @ inputs).reshape(3, 2, -1)
+
+        return body_accelerations
 
     def transfer(self, frequency_hz: float) -> np.ndarray:
         """Return the steady contact forces for unit harmonic support motion.
 
         Returns
         -------
-        ndarray, shape (2 contacts, 2 contacts), complex
-            Force on the deck (N) at contact and direction i for 1 m at contact and direction j; lateral before vertical.
+        ndarray, shape (contacts, 2, contacts, 2), complex
+            Force on the deck (N) at a contact and direction for 1 m at another contact and
+            direction; lateral before vertical.
         """
-        rows, k, c = self._contact_rows()
+        rows = self._contact_rows.reshape(-1, len(self.labels))
         s = 2j * np.pi * frequency_hz
         dynamic = self.mass_matrix * s**2 + self.damping_matrix * s + self.stiffness_matrix
-        impedance = k + c * s
-        return impedance[:, None] * (rows @ np.linalg.solve(dynamic, rows.T)) * impedance - np.diag(impedance)
+        impedance = (self.contact_stiffness + self.contact_damping * s).ravel()
+        through = rows @ np.linalg.solve(dynamic, rows.T)
+        forces = impedance[:, None] * through * impedance - np.diag(impedance)
+        return forces.reshape((len(rows) // 2, 2) * 2)
+
+    # ---- modes
 
     def modes(self) -> Modes:
         """Return the natural modes (no damping), ascending (Table 2)."""
         values, shapes = eigh(self.stiffness_matrix, self.mass_matrix)
-        names = tuple(self.labels[i] for i in np.argmax(np.diag(self.mass_matrix)[:, None] * shapes**2, axis=0))
-        return Modes(np.sqrt(np.clip(values, 0, None)) / (2 * np.pi), np.zeros(len(values)), shapes, self.labels, names)
+        frequencies = np.sqrt(np.clip(values, 0, None)) / (2 * np.pi)
+        return Modes(frequencies, np.zeros(len(values)), shapes, self.labels, self._moving(shapes))
 
     def damped_modes(self) -> Modes:
-        """Return the damped modes: ``|s|/(2 pi)`` and ``-Re(s)/|s|`` of every eigenvalue with ``Im(s) >= 0``.
+        """Return the damped modes: ``|s|/(2 pi)`` and ``-Re(s)/|s|`` of every eigenvalue.
 
-        An overdamped mode shows as two real roots, each with ratio 1.
+        Of a pair the one with ``Im(s) >= 0``. An overdamped mode shows as two real roots, each with
+        ratio 1.
         """
         n = len(self.labels)
-        poles, vectors = np.linalg.eig(self.system().a)
+        poles, vectors = np.linalg.eig(self.system.a)
         keep = poles.imag >= 0
         order = np.argsort(np.abs(poles[keep]))
         poles, shapes = poles[keep][order], vectors[:n, keep][:, order]
-        energy = np.diag(self.mass_matrix)[:, None] * np.abs(shapes) ** 2
-        names = tuple(self.labels[i] for i in np.argmax(energy, axis=0))
         largest = shapes[np.argmax(np.abs(shapes), axis=0), np.arange(shapes.shape[1])]
-        return Modes(np.abs(poles) / (2 * np.pi), -poles.real / np.abs(poles), shapes / largest, self.labels, names)
+        ratios = -poles.real / np.abs(poles)
+        frequencies = np.abs(poles) / (2 * np.pi)
+        return Modes(frequencies, ratios, shapes / largest, self.labels, self._moving(shapes))
+
+    def _moving(self, shapes: np.ndarray) -> tuple[str, ...]:
+        """Name each shape by the freedom with most of the kinetic energy."""
+        energy = np.diag(self.mass_matrix)[:, None] * np.abs(shapes) ** 2
+        return tuple(self.labels[i] for i in np.argmax(energy, axis=0))
 
 
-def _check(v: Vehicle) -> None:
-    where = f"vehicle {v.name}"
-    errors.number(f"{where}: length", v.length, above=0.0, unit="m")
-    errors.number(f"{where}: static_wheelset_mass", v.static_wheelset_mass, least=0.0, unit="kg")
-    names = [b.name for b in v.bodies]
-    for body in v.bodies:
-        here = f"{where}: body {body.name}"
-        if body.name == "rail" or names.count(body.name) > 1:
-            raise InputError(f"{here}: name", body.name, "must be unique and not 'rail'")
-        errors.number(f"{here}: mass", body.mass, above=0.0, unit="kg")
-        errors.numbers(f"{here}: position", body.position, count=3, unit="m")
-        errors.numbers(f"{here}: inertia", body.inertia, count=3, least=0.0, unit="kg m2")
-        for f in body.freedoms:
-            errors.choice(f"{here}: freedoms", f, FREEDOMS)
-            if f in _INERTIA_AXIS:
-                errors.number(f"{here}: inertia in {f}", body.inertia[_INERTIA_AXIS[f]], above=0.0, unit="kg m2")
-    for i, spring in enumerate(v.springs, start=1):
-        here = f"{where}: spring {i} ({spring.from_} to {spring.to})"
-        for end in (spring.from_, spring.to):
-            errors.choice(f"{here}: end", end, [*names, "rail"])
-        if spring.from_ == spring.to:
-            raise InputError(f"{here}: end", spring.to, "must differ from the other end")
-        errors.numbers(f"{here}: at", spring.at, count=3, unit="m")
-        errors.numbers(f"{here}: stiffness", spring.stiffness, count=2, least=0.0, unit="N/m")
-        errors.numbers(f"{here}: damping", spring.damping, count=2, least=0.0, unit="N s/m")
-        if max(*spring.stiffness, *spring.damping) == 0.0:
-            raise InputError(f"{here}: stiffness", spring.stiffness, "spring and damper are both zero", "Remove it")
-    axles = [s.at[0] for s in v.springs if "rail" in (s.from_, s.to)]
-    if not axles:
-        raise InputError(f"{where}: spring", None, "no spring reaches the rail", "Give one end of a spring as 'rail'")
-    if min(axles) > 0.0 or max(axles) < 0.0:
-        raise InputError(
-            f"{where}: spring: at", sorted(axles), "all wheels are on one side of x = 0", "Measure x from mid-length"
-        )
+# ---- refusals
 
 
-def _refuse_mechanism(v: Vehicle) -> None:
+def _refuse_wrong_ends(vehicle: Vehicle) -> None:
+    names = [body.name for body in vehicle.bodies]
+    for i, name in enumerate(names, start=1):
+        if names.count(name) > 1:
+            raise InputError(f"bodies[{i}].name", name, "must be unique")
+    for i, spring in enumerate(vehicle.springs, start=1):
+        with within(f"springs[{i}]", {"from_": "from"}):
+            errors.choice("from_", spring.from_, [*names, "rail"])
+            errors.choice("to", spring.to, [*names, "rail"])
+    places = [s.at[0] for s in vehicle.springs if s.on_rail]
+    if not places:
+        remedy = "Give one end of a spring as 'rail'"
+        raise InputError("springs", None, "no spring reaches the rail", remedy)
+    if min(places) > 0.0 or max(places) < 0.0:
+        allowed = "all wheels are on one side of x = 0"
+        raise InputError("springs: at", sorted(places), allowed, "Measure x from mid-length")
+
+
+def _refuse_mechanism(vehicle: Vehicle) -> None:
     """Name the body and freedom that no spring holds."""
-    scale = 1.0 / np.sqrt(np.diag(v.mass_matrix))
-    values, vectors = np.linalg.eigh(scale[:, None] * v.stiffness_matrix * scale)
+    if not vehicle.labels:
+        raise InputError("bodies", None, "no body has a freedom")
+    scale = 1.0 / np.sqrt(np.diag(vehicle.mass_matrix))
+    values, vectors = np.linalg.eigh(scale[:, None] * vehicle.stiffness_matrix * scale)
     if values[0] <= 1e-10 * values[-1]:
-        loose = v.labels[int(np.argmax(np.abs(vectors[:, 0])))]
+        loose = vehicle.labels[int(np.argmax(np.abs(vectors[:, 0])))]
         body, freedom = loose.rsplit(" ", 1)
         raise InputError(
-            f"vehicle {v.name}: body {body}: {freedom}",
+            f"body {body}: {freedom}",
             None,
             "is held by no spring, so the vehicle is a mechanism",
             f"Add a spring that resists {freedom}, or take it from the body's freedoms",
         )
 
 
-def _refuse_lifted_wheel(v: Vehicle) -> None:
-    """Refuse a vehicle that would tip over: the contact is permanent here, so such a wheel would pull at the rail."""
-    for wheel in v.contacts:
-        if wheel.static_load < -1e-9 * v.weight:
+def _refuse_lifted_wheel(vehicle: Vehicle) -> None:
+    """Refuse a vehicle that would tip over: contact is permanent, so such a wheel would pull."""
+    for wheel in vehicle.contacts:
+        if wheel.static_load < -1e-9 * vehicle.weight:
             raise InputError(
-                f"vehicle {v.name}: wheel at x = {wheel.x:g}, y = {wheel.y:g} m: static load",
+                f"wheel at x = {wheel.x:g}, y = {wheel.y:g} m: static load",
                 f"{wheel.static_load:.4g} N",
                 "must not be negative, the vehicle tips over at rest",
                 "Correct the positions of bodies and springs, measured from mid-length",
@@ -403,79 +513,106 @@ def _refuse_lifted_wheel(v: Vehicle) -> None:
 
 # ---- kinds of vehicles
 
+_POSITIVE = {u: Range(above=0.0, unit=u) for u in ("kg", "kg m2", "m")}
+_NOT_NEGATIVE = {u: Range(least=0.0, unit=u) for u in ("N/m", "N s/m")}
+_ANY = Range(unit="m")
+
 CAR_PARAMETERS = {
-    "car_body_mass": "kg", "car_body_roll_inertia": "kg m2", "car_body_pitch_inertia": "kg m2", "car_body_yaw_inertia": "kg m2",
-    "bogie_mass": "kg", "bogie_roll_inertia": "kg m2", "bogie_pitch_inertia": "kg m2", "bogie_yaw_inertia": "kg m2",
-    "primary_vertical_stiffness": "N/m", "primary_lateral_stiffness": "N/m",
-    "secondary_vertical_stiffness": "N/m", "secondary_lateral_stiffness": "N/m",
-    "primary_vertical_damping": "N s/m", "primary_lateral_damping": "N s/m",
-    "secondary_vertical_damping": "N s/m", "secondary_lateral_damping": "N s/m",
-    "length": "m", "bogie_spacing": "m", "axle_spacing": "m",
-    "car_body_above_secondary": "m", "secondary_above_bogie": "m", "primary_below_bogie": "m",
-    "primary_half_width": "m", "secondary_half_width": "m",
-}  # fmt: skip
-"""Names of a two-bogie car's parameter table (Table 1) with their SI units."""
+    **dict.fromkeys(("car_body_mass", "bogie_mass"), _POSITIVE["kg"]),
+    **{
+        f"{body}_{rotation}_inertia": _POSITIVE["kg m2"]
+        for body in ("car_body", "bogie")
+        for rotation in ("roll", "pitch", "yaw")
+    },
+    **{
+        f"{level}_{way}_{kind}": _NOT_NEGATIVE[unit]
+        for kind, unit in (("stiffness", "N/m"), ("damping", "N s/m"))
+        for level in ("primary", "secondary")
+        for way in ("vertical", "lateral")
+    },
+    **dict.fromkeys(("length", "bogie_spacing", "axle_spacing"), _POSITIVE["m"]),
+    **dict.fromkeys(("primary_half_width", "secondary_half_width"), _POSITIVE["m"]),
+    **dict.fromkeys(
+        ("car_body_above_secondary", "secondary_above_bogie", "primary_below_bogie"), _ANY
+    ),
+}
+"""Names of a two-bogie car's parameters (Table 1) and what each may be, with its SI unit."""
 
 
-def two_bogie_car(name: str, **p: float) -> Vehicle:
-    """Build the 15-freedom car of Table 1 and Figure 1: a car body on two bogies, each on two axles.
+def two_bogie_car(name: str, **parameters: float) -> Vehicle:
+    """Build the 15-freedom car of Table 1 and Figure 1: a body on two bogies of two axles each.
 
     Parameters
     ----------
     name : str
-    **p : float
-        The values of `CAR_PARAMETERS`, SI. Stiffness and damping are per spring: each bogie has two secondary springs (left
-        and right), each axle two primary springs.
+    **parameters : float
+        All of `CAR_PARAMETERS`, SI. Stiffness and damping are per spring: each bogie has two
+        secondary springs (left and right), each axle two primary springs.
 
     Notes
     -----
-    The paper gives no height above the rail. The primary springs are placed at rail level, so that the lateral wheel
-    force acts there (no couple F_y times height on the deck).
+    The paper gives no height above the rail. The primary springs are placed at rail level, so that
+    the lateral wheel force acts there (no couple F_y times height on the deck).
     """
-    errors.keys(f"vehicle {name}", p, CAR_PARAMETERS, CAR_PARAMETERS)
-    for key in ("length", "bogie_spacing", "axle_spacing", "primary_half_width", "secondary_half_width"):
-        errors.number(f"vehicle {name}: {key}", p[key], above=0.0, unit="m")
+    with within(source=f"vehicle {name}"):
+        errors.keys("", parameters, CAR_PARAMETERS, CAR_PARAMETERS)
+        p = {key: CAR_PARAMETERS[key].checked(key, value) for key, value in parameters.items()}
     bogie_z = p["primary_below_bogie"]
     secondary_z = bogie_z + p["secondary_above_bogie"]
-    inertia = {b: tuple(p[f"{b}_{r}_inertia"] for r in ("roll", "pitch", "yaw")) for b in ("car_body", "bogie")}
-    bodies = [Body("car", p["car_body_mass"], inertia["car_body"], (0.0, 0.0, secondary_z + p["car_body_above_secondary"]))]
+    inertia = {
+        body: tuple(p[f"{body}_{rotation}_inertia"] for rotation in ("roll", "pitch", "yaw"))
+        for body in ("car_body", "bogie")
+    }
+
+    def suspension(level: str, upper: str, lower: str, at: tuple[float, float, float]) -> Spring:
+        stiffness, damping = (
+            (p[f"{level}_lateral_{kind}"], p[f"{level}_vertical_{kind}"])
+            for kind in ("stiffness", "damping")
+        )
+        return Spring(upper, lower, at, stiffness, damping)
+
+    centre = (0.0, 0.0, secondary_z + p["car_body_above_secondary"])
+    bodies = [Body("car", p["car_body_mass"], inertia["car_body"], centre)]
     springs = []
-    for bogie, sign in (("front bogie", 1.0), ("rear bogie", -1.0)):
-        x = sign * p["bogie_spacing"] / 2
+    for bogie, ahead in (("front bogie", 1.0), ("rear bogie", -1.0)):
+        x = ahead * p["bogie_spacing"] / 2
         bodies.append(Body(bogie, p["bogie_mass"], inertia["bogie"], (x, 0.0, bogie_z)))
         for side in (1.0, -1.0):
             at = (x, side * p["secondary_half_width"], secondary_z)
-            springs.append(_suspension("secondary", "car", bogie, at, p))
+            springs.append(suspension("secondary", "car", bogie, at))
         for axle in (1.0, -1.0):
             for side in (1.0, -1.0):
                 at = (x + axle * p["axle_spacing"] / 2, side * p["primary_half_width"], 0.0)
-                springs.append(_suspension("primary", bogie, "rail", at, p))
+                springs.append(suspension("primary", bogie, "rail", at))
     return Vehicle(name, tuple(bodies), tuple(springs), p["length"])
 
 
-def _suspension(level: str, upper: str, lower: str, at: tuple[float, float, float], p: dict[str, float]) -> Spring:
-    stiffness, damping = ((p[f"{level}_lateral_{w}"], p[f"{level}_vertical_{w}"]) for w in ("stiffness", "damping"))
-    return Spring(upper, lower, at, stiffness, damping)
-
-
-def sprung_mass(name: str, mass: float, stiffness: float, damping: float = 0.0, length: float = 10.0) -> Vehicle:
+def sprung_mass(
+    name: str, mass: float, stiffness: float, damping: float = 0.0, length: float = 10.0
+) -> Vehicle:
     """Build a mass on a vertical spring and damper (kg, N/m, N s/m): the smallest vehicle."""
     body = Body("mass", mass, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), ("z",))
-    return Vehicle(name, (body,), (Spring("mass", "rail", (0.0, 0.0, 0.0), (0.0, stiffness), (0.0, damping)),), length)
+    spring = Spring("mass", "rail", (0.0, 0.0, 0.0), (0.0, stiffness), (0.0, damping))
+    return Vehicle(name, (body,), (spring,), length)
 
 
 def planar_car(car: Vehicle) -> Vehicle:
-    """Reduce a car to its vertical plane: bounce and pitch of every body, left and right springs put together at y = 0.
+    """Reduce a car to its vertical plane: bounce and pitch of every body, all springs at y = 0.
 
-    Springs that are lateral only are left out.
+    Left and right springs are put together; those that are lateral only are left out.
     """
-    bodies = tuple(replace(b, freedoms=tuple(f for f in b.freedoms if f in ("z", "pitch"))) for b in car.bodies)
-    joined: dict[tuple, Spring] = {}
+    bodies = tuple(
+        replace(b, freedoms=tuple(f for f in b.freedoms if f in ("z", "pitch"))) for b in car.bodies
+    )
+    together: dict[tuple, list[Spring]] = {}
     for s in car.springs:
-        if s.stiffness[1] == s.damping[1] == 0.0:
-            continue
-        key = (s.from_, s.to, s.at[0], s.at[2])
-        before = joined.get(key, Spring(s.from_, s.to, (s.at[0], 0.0, s.at[2]), (0.0, 0.0), (0.0, 0.0)))
-        total = (0.0, before.stiffness[1] + s.stiffness[1]), (0.0, before.damping[1] + s.damping[1])
-        joined[key] = Spring(s.from_, s.to, before.at, *total)
-    return Vehicle(f"{car.name} planar", bodies, tuple(joined.values()), car.length, car.static_wheelset_mass)
+        if s.stiffness[1] or s.damping[1]:
+            together.setdefault((s.from_, s.to, s.at[0], s.at[2]), []).append(s)
+    springs = tuple(
+        Spring(
+            from_, to, (x, 0.0, z),
+            (0.0, sum(s.stiffness[1] for s in own)), (0.0, sum(s.damping[1] for s in own)),
+        )
+        for (from_, to, x, z), own in together.items()
+    )  # fmt: skip
+    return Vehicle(f"{car.name} planar", bodies, springs, car.length, car.static_wheelset_mass)

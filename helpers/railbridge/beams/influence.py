@@ -19,7 +19,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import errors
-from ..decks import BEARING_QUANTITIES, REACTION_QUANTITIES, SECTION_QUANTITIES, Line, PiecewiseCubic
+from ..decks import BEARING_QUANTITIES, REACTION_QUANTITIES, SECTION_QUANTITIES, Line
+from ..guideways import PiecewiseCubic
 from ..units import G
 from .elements import BENDING, rotation_powers
 
@@ -53,6 +54,8 @@ class BeamRecovery:
     vectors : ndarray, shape (freedoms, m)
         Their shapes over the beam's mesh, mass-normalised.
     """
+
+    lacks = ""
 
     def __init__(self, beam: Beam, frequencies_hz: np.ndarray, vectors: np.ndarray) -> None:
         self.beam = beam

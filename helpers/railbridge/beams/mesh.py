@@ -21,7 +21,7 @@ from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU
 
-from ..decks import PiecewiseCubic
+from ..guideways import PiecewiseCubic
 from . import elements
 from .bearings import null_space
 from .eigen import count_below, factorised, lowest

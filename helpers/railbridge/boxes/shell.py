@@ -18,8 +18,8 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from .. import errors
 from ..beams.eigen import lowest
-from ..decks import PiecewiseCubic
 from ..errors import InputError
+from ..guideways import PiecewiseCubic
 from .motions import KINDS, ShellModes, described, sectionwise
 from .pads import Pad, elimination, free_count, held
 

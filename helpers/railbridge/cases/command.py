@@ -22,12 +22,14 @@ from typing import Any
 
 import numpy as np
 
-from ..crossing import Crossing, NotConvergedError
+from ..crossing import NotConvergedError
 from ..errors import InputError
+from ..results import Crossing
+from ..settings import bytes_needed
 from . import copies as lessons
 from . import shelf
 from .definition import Case, case
-from .summary import histories, refuse_too_large, summarize, to_json
+from .summary import histories, summarize, to_json
 
 __all__ = ["main"]
 
@@ -192,7 +194,6 @@ def _case(given: argparse.Namespace) -> Case:
 
 def _run(given: argparse.Namespace) -> int:
     loaded = _case(given)
-    refuse_too_large(loaded.train, loaded.deck, loaded.settings, len(loaded.points))
     progress = _Progress(given.quiet)
     with _results(given.out) as folder:
         code = 0
@@ -231,7 +232,7 @@ def _write(folder: Path, loaded: Case, run: Crossing, progress: _Progress, with_
 
 def _check(given: argparse.Namespace) -> int:
     loaded = _case(given)
-    needed = refuse_too_large(loaded.train, loaded.deck, loaded.settings, len(loaded.points))
+    needed = bytes_needed(loaded.train, loaded.deck, loaded.settings, len(loaded.points))
     s = loaded.settings
     seconds = (loaded.deck.length + loaded.train.length) / s.speed + s.tail
     wheels = len(loaded.train.wheels)

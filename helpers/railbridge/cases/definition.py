@@ -18,10 +18,11 @@ from typing import Any
 import numpy as np
 
 from .. import errors
-from ..crossing import Crossing, cross
+from ..crossing import NotConvergedError, compute
 from ..decks import Deck
 from ..errors import InputError
 from ..exchange import files as exchange
+from ..results import Crossing
 from ..settings import Settings, check
 from ..tracks import Harmonic, Irregularity, Level, Notch, Rails, Table, Track
 from ..trains import AxleTrain, Train
@@ -135,7 +136,10 @@ class Case:
 
     def run(self, progress: Callable[[str], None] | None = None) -> Crossing:
         """Compute the crossing; see `cross`."""
-        return cross(self.train, self.deck, self.track, **self.options, progress=progress)
+        try:
+            return compute(self.train, self.deck, self.track, self.settings, progress)
+        except NotConvergedError as error:
+            raise NotConvergedError(error.run, "run.") from None
 
     def summary(self, run: Crossing | None = None) -> dict[str, Any]:
         """Return the numbers engineers look at first (of a run of this case, if there is one already); see `summarize`."""

@@ -288,7 +288,7 @@ def vehicle(source: str | Path) -> Vehicle:
     """
     path = shelf.data_file("vehicles", source)
     if path.suffix == ".csv":
-        return two_bogie_car(path.stem, **shelf.read_parameters(path, CAR_PARAMETERS))
+        return two_bogie_car(path.stem, **shelf.read_parameters(path, {k: r.unit for k, r in CAR_PARAMETERS.items()}))
     return from_table(path.stem, shelf.read_toml(path))
 
 

@@ -22,7 +22,7 @@ from ..errors import InputError
 from .nodes import MASSES, PER_METRE, RailLine
 
 if TYPE_CHECKING:
-    from ..crossing import Crossing
+    from ..results import Crossing
     from .staggered import Staggered
 
 __all__ = ["FORMATS", "NodalLoads", "export_loads", "nodal_loads"]

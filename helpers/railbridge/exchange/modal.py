@@ -26,8 +26,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .. import errors
-from ..decks import Deck, PiecewiseCubic, rayleigh_ratio
+from ..decks import Deck, rayleigh_ratio
 from ..errors import InputError
+from ..guideways import PiecewiseCubic
 from .nodes import Nodes, RailLine, cubics, hermite, parabolas, spline
 
 __all__ = ["ModalModel", "Orthogonality", "deck_from_modes"]

@@ -25,9 +25,10 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .. import errors
-from ..coupling import Coupling, DeckState, Delta, prepare
-from ..decks import Deck, History, PiecewiseCubic
+from ..coupling import Coupling, DeckState, ForcesAdded, prepare
+from ..decks import History
 from ..errors import InputError
+from ..guideways import Guideway, PiecewiseCubic
 from ..settings import check
 from ..tracks import FadeIn, Track
 from ..trains import AxleTrain, Train
@@ -63,7 +64,7 @@ class Staggered:
     track: Track
     line: RailLine
     coupling: Coupling
-    passes: tuple[Delta, ...]
+    passes: tuple[ForcesAdded, ...]
     changes: tuple[float, ...] = ()
     felt: DeckState | None = None
 
@@ -83,19 +84,18 @@ class Staggered:
         return errors.frozen(self.coupling.wheel_forces(self.passes[-1], self.felt))
 
 
-def nodal_deck(line: RailLine, track_height: float = 0.0) -> Deck:
-    """Return a deck whose coordinates are the displacements y, z and the twist of the nodes of a line.
+def nodal_deck(line: RailLine, track_height: float = 0.0) -> Guideway:
+    """Return what moves as the nodes of a line do: its coordinates are their y, z and twist.
 
-    It has no frequencies of its own; only its shapes, which interpolate between the nodes by cubic splines, have a meaning.
+    Its shapes interpolate between the nodes by cubic splines.
     """
     n = len(line.x)
     cardinal = spline(line.x, np.eye(n))
     coefficients = np.zeros((n - 1, 4, 3 * n, 3))
     for c in range(3):
         coefficients[:, :, c * n : (c + 1) * n, c] = cardinal
-    none = np.ones(3 * n)
     shapes = PiecewiseCubic(line.x, coefficients)
-    return Deck("nodes", line.length, none, 0.0 * none, ("node",) * (3 * n), shapes, track_height=track_height)
+    return Guideway(name="nodes", length=line.length, shapes=shapes, track_height=track_height)
 
 
 def begin(
@@ -120,7 +120,7 @@ def begin(
     track_height = errors.number("track_height", track_height, unit="m")
     deck = nodal_deck(line, track_height)
     coupling = prepare(train, deck, track, check(train, deck, track, speed=speed, **options))
-    return Staggered(train, track, line, coupling, (coupling.at_rest(),))
+    return Staggered(train, track, line, coupling, (coupling.nothing_added(),))
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,7 +208,7 @@ def next_forces(step: Staggered, motion: NodeMotion, share: float = 1.0) -> Stag
     """
     share = errors.number("share", share, above=0.0, most=1.0)
     axis = _axis_motion(step.line, motion)
-    time = step.time[: max(w.stop for w in step.coupling.windows)]
+    time = step.time[: max(c.window.stop for c in step.coupling.cars)]
     _refuse_history(motion, axis, time)
     inside = np.clip(time, motion.time[0], motion.time[-1])
     follow = CubicSpline(motion.time, axis, axis=1)
@@ -267,11 +267,10 @@ def equivalent_irregularity(step: Staggered, car: int = 1, wheel: int = 1) -> Hi
     if not wheels:
         raise InputError("wheel", (car, wheel), "no such (car, wheel) in this train", "Both are counted from 1")
     own, s = step.train.wheels[wheels[0]], step.coupling.settings
-    axle = step.coupling.axle_of[car - 1][wheel - 1] if not isinstance(step.train, AxleTrain) else wheels[0]
-    ahead = 0.0
-    if s.excitation == "car":
-        vehicle = step.train.vehicles[car - 1]
-        ahead = vehicle.length / 2 - vehicle.contacts[wheel - 1].x
+    carried = step.coupling.cars[own.car - 1]
+    place = next(i for i, axle in enumerate(carried.car.axles) if own in axle.wheels)
+    axle = int(carried.axles[place])
+    ahead = carried.car.vehicle.length / 2 - own.x if s.excitation == "car" else 0.0
     x = s.speed * step.time - own.delay + ahead
     deck = np.zeros((2, len(step.time)))
     if step.felt is not None:

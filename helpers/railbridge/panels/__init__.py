@@ -19,10 +19,10 @@ import numpy as np
 from .. import plots
 from ..cases.definition import Case
 from ..cases.definition import case as load_case
-from ..crossing import Crossing
 from ..decks import rayleigh, rayleigh_ratio
 from ..plots.drawing import in_words
 from ..plots.scene import car_components, crossing_at, mark_now
+from ..results import Crossing
 from ..trains import CONDENSED, steady_forces
 from .control import Control
 from .panel import DPI, FALLBACK, Panel
@@ -115,7 +115,8 @@ def irregularities(case: Case | None = None) -> Panel:
 def _steady(case: Case) -> dict[str, float]:
     """Steady amplitudes of the first car's five components."""
     forces = steady_forces(case.train.vehicles[0], case.track, case.options["speed"])
-    return dict(zip(CONDENSED, np.abs(case.train.condensation(0, "condensed").matrix[0] @ forces).tolist(), strict=True))
+    resultant = np.tensordot(case.train.car(1).condensation("condensed").matrix[0], forces, 2)
+    return dict(zip(CONDENSED, np.abs(resultant).tolist(), strict=True))
 
 
 def rigid_forces(case: Case | None = None) -> Panel:

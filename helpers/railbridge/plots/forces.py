@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..crossing import Crossing
 from ..errors import InputError
+from ..results import Crossing
 from ..spectra import Spectrum, deviation_percent
 from ..trains import CONDENSED
 from .drawing import GREY, TIME, curve, finish, grid, look, mark, one, shade

@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .. import errors
-from ..crossing import Crossing
 from ..errors import InputError
+from ..results import Crossing
 from ..trains import CONDENSED
 from .drawing import COMPARED, GREY, TIME, curve, finish, grid, is_live, look, note, one, shade
 from .forces import shade_car, shade_train

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .. import errors
-from ..crossing import Crossing
+from ..results import Crossing
 from ..trains import CONDENSED
 from .drawing import ALONG, GREY, TIME, curve, finish, grid, look, note, one
 from .forces import shade_car
@@ -52,10 +52,10 @@ def crossing_at(run: Crossing, position: float, ax: Axes | None = None) -> Axes:
     curve(ax, "rest", [0.0, deck.length], [-0.45, -0.45], color=GREY, lw=1.0, ls=":")
     curve(ax, "deck", along, moved - 0.45, color=_DECK, lw=7.0, solid_capstyle="butt", zorder=1.8)
     curve(ax, "bearings", deck.supports, np.full(len(deck.supports), -1.75), color="#34495e", ls="", marker="^", ms=9)
-    wheels = position - np.array(sorted({round(w.delay, 6) for w in train.wheels}))
+    wheels = position - np.array([axle.delay for axle in train.placed_axles])
     curve(ax, "wheels", wheels, level(wheels) + 0.35, color=_TRAIN, ls="", marker="o", ms=4.5, zorder=3)
     bogies, cars = [], []
-    for centre, car in zip(train.centres, getattr(train, "vehicles", ()), strict=False):
+    for centre, car in [(c.centre, c.vehicle) for c in train.formation if c.vehicle is not None]:
         middle, places, heights = position - centre, [], []
         for name in dict.fromkeys(c.body for c in car.contacts):
             x = middle + np.array([c.x for c in car.contacts if c.body == name])

@@ -317,13 +317,13 @@ def train_on_deck(train: Train | AxleTrain, deck: Deck, ax: Axes | None = None, 
     ax = one(ax, 1.9)
     at = 0.0 if position is None else errors.number("position", position, unit="m")
     cars, bogies = [], []
-    for centre, car in zip(train.centres, getattr(train, "vehicles", ()), strict=False):
+    for centre, car in [(c.centre, c.vehicle) for c in train.formation if c.vehicle is not None]:
         middle, half = at - centre, 0.47 * car.length
         cars.append(middle + half * np.array([-1, 1, 1, -1, -1, np.nan]))
         for name in dict.fromkeys(c.body for c in car.contacts):
             x = [c.x for c in car.contacts if c.body == name]
             bogies.append([middle + min(x) - 0.6, middle + max(x) + 0.6, np.nan])
-    wheels = at - np.array(sorted({round(w.delay, 6) for w in train.wheels}))
+    wheels = at - np.array([axle.delay for axle in train.placed_axles])
     level = np.tile([1.6, 1.6, 4.2, 4.2, 1.6, np.nan], len(cars))
     end = max(deck.length, at) + 12.0
     start = min(0.0, at - train.length) - 12.0

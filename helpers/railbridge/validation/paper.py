@@ -22,8 +22,8 @@ import numpy as np
 from .. import errors
 from ..cases.definition import Case, case
 from ..cases.objects import vehicle
-from ..crossing import Crossing
 from ..decks import rayleigh, rayleigh_ratio
+from ..results import Crossing
 from ..tracks import Harmonic, Track
 from ..trains import LOADS, steady_forces
 
@@ -132,7 +132,7 @@ def table4(crossing: Crossing) -> dict[str, float]:
 def bounce_amplitude(wavelength: float, excitation: str = "wheels") -> float:
     """Return the steady amplitude of a car's vertical force on 5 mm waves at 20 m/s, N, in closed form."""
     forces = steady_forces(vehicle("xia2000"), Track(vertical=Harmonic(5e-3, wavelength)), 20.0, excitation)
-    return float(np.abs(forces[1::2].sum()))
+    return float(np.abs(forces[:, 1].sum()))
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,9 @@ from scipy.optimize import brentq, minimize_scalar
 
 from ..beams.beam import Beam
 from ..cases.objects import vehicle
-from ..crossing import Crossing, cross
+from ..crossing import cross
 from ..decks import Deck, rayleigh
+from ..results import Crossing
 from ..tracks import Harmonic, Track
 from ..trains import AxleTrain, Train
 from ..vehicles import planar_car, sprung_mass

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ... import errors
-from ...crossing import Crossing
+from ...results import Crossing
 from ...vehicles import FREEDOMS, Modes, Vehicle
 from ..drawing import GREY, LOOKS, MOTIONS, PALE
 from ..sketches import VIEWS, body_boxes, body_levels, extent, mode_motion, moved, same_frequency, spring_ends, what_moves, zigzag
@@ -230,9 +230,9 @@ def _draw_bridge(drawing: Drawing, data: dict, run: Crossing, scale: float, time
     """Draw train and deck, add to the data what moves them, and return the force of the heaviest axle at rest, N."""
     deck, train, speed, rail = run.deck, run.train, run.settings.speed, 112.0
     left, span = 20 + scale * _margin(deck.length), scale * deck.length
-    delays = sorted({round(w.delay, 6) for w in train.wheels})
-    members = [[i for i, w in enumerate(train.wheels) if round(w.delay, 6) == d] for d in delays]
-    rest = max(sum(train.wheels[i].static_load for i in m) for m in members)
+    delays = [axle.delay for axle in train.placed_axles]
+    members = [[train.wheels.index(wheel) for wheel in axle.wheels] for axle in train.placed_axles]
+    rest = max(axle.static_load for axle in train.placed_axles)
     forces = -np.array([run.wheel_forces[m, 1][:, sample].sum(axis=0) for m in members])
     per_newton = 30.0 / max(float(forces.max()), rest)
     head = left + scale * speed * time
@@ -248,7 +248,7 @@ def _draw_bridge(drawing: Drawing, data: dict, run: Crossing, scale: float, time
     rest_line = {"stroke": GREY, "stroke-dasharray": "5 4", "stroke-width": 1}
     drawing.add("line", x1=left, x2=left + span, y1=rail, y2=rail, **rest_line)
     cars = []
-    for centre, car in zip(train.centres, getattr(train, "vehicles", ()), strict=False):
+    for centre, car in [(c.centre, c.vehicle) for c in train.formation if c.vehicle is not None]:
         half, middle = 0.47 * car.length, -centre
         cars.append(mark("rect", x=scale * (middle - half), y=rail - 46, width=scale * 2 * half, height=28, rx=3))
         for name in dict.fromkeys(c.body for c in car.contacts):
@@ -313,7 +313,7 @@ def _pace(ratio: float) -> str:
 
 
 def _who(run: Crossing) -> str:
-    cars = len(run.train.groups()) and len(run.train.centres)
+    cars = sum(car.vehicle is not None for car in run.train.formation)
     axles = len({round(w.delay, 6) for w in run.train.wheels})
     count, word = (cars, "car") if cars else (axles, "axle")
     return f"{count} {word}" + "s" * (count != 1)

@@ -1,0 +1,280 @@
+r"""What wheels run over: motions along a rail line, and the loads that travel on it.
+
+A wheel at y, riding on the deck, moves by ``w + y theta``, sideways by ``v - h theta`` where the
+rails lie h above the axis, and its support velocity is the total derivative ``w q' + V w' q``: the
+second, convective term is the climb along the deflected deck.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import perm
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+from . import errors
+from .errors import InputError
+
+__all__ = ["COMPONENTS", "Guideway", "PiecewiseCubic", "Stations"]
+
+COMPONENTS = ("y", "z", "roll")
+"""What a shape consists of: lateral, vertical, twist."""
+
+
+@dataclass(frozen=True, eq=False)
+class PiecewiseCubic:
+    """Functions along the deck, cubic between edges.
+
+    Attributes
+    ----------
+    edges : ndarray, shape (e + 1,)
+        m, ascending.
+    coefficients : ndarray, shape (e, 4, n, 3)
+        Powers 0..3 of the local coordinate 0..1, for n functions of three components (y, z, roll),
+        or of as many as there are.
+    """
+
+    edges: np.ndarray
+    coefficients: np.ndarray
+
+    def __call__(self, x: np.ndarray, derivative: int = 0) -> np.ndarray:
+        """Evaluate at x (m), shape (k,), or differentiate up to twice by x; returns shape (k, n,
+        3). Zero off the deck."""
+        x = np.asarray(x, dtype=float)
+        i = np.clip(np.searchsorted(self.edges, x, side="right") - 1, 0, len(self.edges) - 2)
+        h = np.diff(self.edges)[i]
+        local = (x - self.edges[i]) / h
+        factors = np.zeros((4, len(x)))
+        for p in range(derivative, 4):
+            factors[p] = perm(p, derivative) * local ** (p - derivative) / h**derivative
+        factors[:, (x < self.edges[0] - 1e-9) | (x > self.edges[-1] + 1e-9)] = 0.0
+        return np.einsum("pk,kpnc->knc", factors, self.coefficients[i])
+
+
+@dataclass(frozen=True, eq=False)
+class Stations:
+    """Loads that travel together along the deck: when each is on it, and the shapes it meets there.
+
+    Attributes
+    ----------
+    starts : ndarray of int, shape (s,)
+        First sample of each station on the deck.
+    counts : ndarray of int, shape (s,)
+        Number of samples on the deck.
+    tables : tuple of (values, slopes)
+        Shape values and slopes met, each shape (pairs, samples) over the (mode, component) pairs
+        that are not zero.
+    which : ndarray of int, shape (s,)
+        Table of each station; stations that meet the grid alike share one.
+    pairs : tuple of ndarray
+        Mode and component of each pair, sorted by component.
+    speed : float
+        m/s.
+    """
+
+    starts: np.ndarray
+    counts: np.ndarray
+    tables: tuple[tuple[np.ndarray, np.ndarray], ...]
+    which: np.ndarray
+    pairs: tuple[np.ndarray, np.ndarray]
+    speed: float
+
+    @cached_property
+    def components(self) -> tuple[slice, slice, slice]:
+        """Where the pairs of each component stand."""
+        return tuple(slice(*np.searchsorted(self.pairs[1], [c, c + 1])) for c in range(3))
+
+    def alike(self, stations: np.ndarray) -> list[np.ndarray]:
+        """Return which of some stations (numbers from 0) share a table: positions within
+        `stations`, a group each."""
+        which = self.which[stations]
+        return [np.flatnonzero(which == table) for table in np.unique(which)]
+
+    def modal_force(self, loads: Sequence[np.ndarray], modes: int, samples: int) -> np.ndarray:
+        """Return the modal forces of all loads.
+
+        Parameters
+        ----------
+        loads : sequence of ndarray, each shape (3 or 5, count)
+            F_y, F_z (N), M_x about the deck axis (N m), and M_y, M_z if the load has them, while on
+            the deck.
+        modes, samples : int
+
+        Returns
+        -------
+        ndarray, shape (modes, samples)
+        """
+        ordered = np.zeros((len(self.pairs[0]), samples))
+        for members in self.alike(np.arange(len(self.starts))):
+            values, slopes = self.tables[self.which[members[0]]]
+            load = np.zeros((max(len(loads[s]) for s in members), len(members), values.shape[1]))
+            for place, station in enumerate(members):
+                load[: len(loads[station]), place, : loads[station].shape[1]] = loads[station]
+            part = np.empty((len(ordered), *load.shape[1:]))
+            for c, pairs in enumerate(self.components):
+                np.multiply(values[pairs, None], load[c], out=part[pairs])
+                if len(load) == 5 and c < 2:
+                    # A couple does work on the slope: M_z on v', and M_y on theta_y = -w'.
+                    part[pairs] += slopes[pairs, None] * (load[4] if c == 0 else -load[3])
+            for place, station in enumerate(members):
+                start, count = self.starts[station], self.counts[station]
+                ordered[:, start : start + count] += part[:, place, :count]
+        total = np.zeros((modes, samples))
+        for pairs in self.components:
+            total[self.pairs[0][pairs]] += ordered[pairs]
+        return total
+
+    def ordered(self, q: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+        """Return modal coordinates and velocities, shape (modes, n), of each pair's mode: shape (2,
+        pairs, n)."""
+        return np.stack([q[self.pairs[0]], velocity[self.pairs[0]]])
+
+    def motion(self, state: np.ndarray, stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return what stations that share a table meet: y, z, roll of the deck, and their total
+        time derivatives.
+
+        Parameters
+        ----------
+        state : ndarray, shape (2, pairs, n)
+            See `ordered`.
+        stations : ndarray of int, shape (s,)
+            Numbers from 0; see `alike`.
+
+        Returns
+        -------
+        moved, rate : ndarray, shape (3, s, samples of the longest)
+        """
+        values, slopes = self.tables[self.which[stations[0]]]
+        count = int(self.counts[stations].max())
+        values, climb = values[:, :count], self.speed * slopes[:, :count]
+        q, velocity = _windows(state, self.starts[stations], count)
+        moved, rate = np.empty((2, 3, len(stations), count))
+        for c, p in enumerate(self.components):
+            np.einsum("pt,pst->st", values[p], q[p], out=moved[c])
+            np.einsum("pt,pst->st", values[p], velocity[p], out=rate[c])
+            rate[c] += np.einsum("pt,pst->st", climb[p], q[p])
+        return moved, rate
+
+
+def _windows(values: np.ndarray, starts: np.ndarray, count: int) -> np.ndarray:
+    """Return `count` samples from each start on, shape (..., starts, count): a view where starts
+    are evenly spaced."""
+    missing = int(starts.max()) + count - values.shape[-1]
+    if missing > 0:
+        values = np.concatenate([values, np.zeros((*values.shape[:-1], missing))], axis=-1)
+    windows = sliding_window_view(values, count, axis=-1)
+    steps = np.diff(starts)
+    if len(starts) == 1 or (steps[0] > 0 and np.all(steps == steps[0])):
+        return windows[..., starts[0] : starts[-1] + 1 : steps[0] if len(steps) else 1, :]
+    return windows[..., starts, :]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Guideway:
+    """What carries a track: how the deck axis moves along the rail line, and where the rails lie.
+
+    Attributes
+    ----------
+    name : str
+    length : float
+        m.
+    shapes : PiecewiseCubic
+        Motion of the deck axis for each of its coordinates: y, z (m), roll (rad).
+    tracks : dict of float
+        Distance of each named track to the left of the axis, m.
+    width : float or None
+        m.
+    track_height : float
+        Rails above the deck axis, m. A lateral wheel force then twists the deck, M_x = -h F_y, and
+        the rail moves sideways by v - h theta.
+    """
+
+    name: str
+    length: float
+    shapes: PiecewiseCubic
+    tracks: dict[str, float] = field(default_factory=dict)
+    width: float | None = None
+    track_height: float = 0.0
+
+    @property
+    def coordinates(self) -> int:
+        """How many coordinates describe its motion."""
+        return self.shapes.coefficients.shape[2]
+
+    @property
+    def has(self) -> dict[str, bool]:
+        """Whether the deck moves in y, z and roll."""
+        return dict(
+            zip(
+                COMPONENTS,
+                np.any(self.shapes.coefficients != 0.0, axis=(0, 1, 2)).tolist(),
+                strict=True,
+            )
+        )
+
+    def track_offset(self, track: float | str) -> float:
+        """Return a track's distance to the left of the axis, m, from its name or from the number
+        itself."""
+        if isinstance(track, str):
+            if not self.tracks:
+                raise InputError(
+                    "track_offset",
+                    track,
+                    "the deck names no tracks",
+                    "Give the distance from its axis, m, left positive",
+                )
+            errors.choice("track_offset", track, self.tracks)
+            return self.tracks[track]
+        limit = self.width / 2 if self.width else None
+        return errors.number(
+            "track_offset", track, least=None if limit is None else -limit, most=limit, unit="m"
+        )
+
+    def stations(
+        self, delays: np.ndarray, speed: float, time_step: float, samples: int
+    ) -> Stations:
+        """Prepare loads that are `delays` (m, shape (s,)) behind x = V t.
+
+        A load counts while 0 <= x <= length, with a ten-thousandth of a step of tolerance, so that
+        rounding does not decide whether a sample at the very end is on the deck.
+        """
+        advance = speed * time_step
+        slack = 1e-4
+        starts = np.ceil(np.asarray(delays) / advance - slack).astype(int)
+        last = np.floor((np.asarray(delays) + self.length) / advance + slack).astype(int)
+        counts = np.minimum(last, samples - 1) - starts + 1
+        first = starts * advance - delays
+        pairs, shapes = self._pairs
+        keys = np.round(first / advance, 9)
+        unique, which = np.unique(keys, return_inverse=True)
+        places = [advance * (key + np.arange(counts[keys == key].max())) for key in unique]
+        ends = np.cumsum([len(x) for x in places])[:-1]
+        values, slopes = (
+            np.split(
+                np.ascontiguousarray(
+                    shapes(np.clip(np.concatenate(places), 0.0, self.length), d)[:, 0].T
+                ),
+                ends,
+                axis=1,
+            )
+            for d in (0, 1)
+        )
+        return Stations(
+            starts,
+            np.maximum(counts, 0),
+            tuple(zip(values, slopes, strict=True)),
+            which,
+            pairs,
+            speed,
+        )
+
+    @cached_property
+    def _pairs(self) -> tuple[tuple[np.ndarray, np.ndarray], PiecewiseCubic]:
+        """The (mode, component) pairs that are not zero, sorted by component, and their shapes as
+        components of one function."""
+        component, mode = np.nonzero(np.any(self.shapes.coefficients != 0.0, axis=(0, 1)).T)
+        coefficients = np.ascontiguousarray(self.shapes.coefficients[:, :, None, mode, component])
+        return (mode, component), PiecewiseCubic(self.shapes.edges, coefficients)

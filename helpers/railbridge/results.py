@@ -1,0 +1,502 @@
+"""What a computed crossing can be asked.
+
+Displacements, section forces, reactions, wheel forces, spectra, extremes and envelopes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from . import errors
+from .coupling import CoupledCar, Coupling, DeckState, ForcesAdded
+from .decks import (
+    BEARING_QUANTITIES,
+    REACTION_QUANTITIES,
+    SECTION_QUANTITIES,
+    Deck,
+    History,
+    Line,
+)
+from .errors import InputError, frozen
+from .settings import STATIONS, Settings
+from .spectra import Spectrum, amplitude_spectrum, deviation_percent
+from .tracks import Track
+from .trains import CONDENSED, AnyTrain
+
+__all__ = ["ENVELOPE", "Crossing", "Deviations", "Envelope"]
+
+ENVELOPE = ("displacement_z", "acceleration_z", "moment_vertical", "moment_lateral", "torsion")
+"""Quantities that have an envelope along the deck."""
+
+_FORCES = tuple(q for q in SECTION_QUANTITIES if q.startswith(("moment", "torsion", "shear")))
+
+
+@dataclass(frozen=True, eq=False)
+class Deviations:
+    """Eq. 3 for every iteration, percent (Table 3).
+
+    Attributes
+    ----------
+    from_rigid, from_previous : ndarray, shape (iterations,)
+    """
+
+    from_rigid: np.ndarray
+    from_previous: np.ndarray
+
+    def to_frame(self):
+        """Return a pandas DataFrame with one row an iteration."""
+        import pandas as pd
+
+        columns = {
+            "from rigid (%)": self.from_rigid,
+            "from previous (%)": self.from_previous,
+        }
+        index = pd.RangeIndex(1, len(self.from_rigid) + 1, name="iteration")
+        return pd.DataFrame(columns, index=index)
+
+
+@dataclass(frozen=True, eq=False)
+class Envelope:
+    """One quantity at many places along the deck.
+
+    Attributes
+    ----------
+    x : ndarray, shape (places,)
+        m.
+    time : ndarray, shape (n,)
+        s.
+    values : ndarray, shape (places, n)
+    """
+
+    x: np.ndarray
+    time: np.ndarray
+    values: np.ndarray = field(repr=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Crossing:
+    """A computed crossing: everything about the last pass (or another, see `at`).
+
+    Attributes
+    ----------
+    train : AnyTrain
+    deck : Deck
+    track : Track
+    settings : Settings
+    passes : tuple of list of ndarray, shape (wheels, 2, n) for each car
+        What the deck's motion adds to the wheel forces while the car is on it, N, for each
+        iteration; iteration 0 (rigid-deck forces) first, so it is zero. The deck's own state is
+        computed from it when asked for.
+    changes : tuple of float
+        For each iteration, the largest over wheels and directions of
+        rms(F_i - F_(i-1)) / rms(F_i - static).
+    converged : bool or None
+        None for interaction ``rigid`` and ``direct``.
+    shown : int
+        Which iteration the methods speak of.
+    coupling : Coupling
+        What all iterations share.
+    states : dict of DeckState
+        The deck's state by iteration, as far as it is known; shared by what `at` returns.
+    """
+
+    train: AnyTrain
+    deck: Deck
+    track: Track
+    settings: Settings
+    passes: tuple[ForcesAdded, ...] = field(repr=False)
+    changes: tuple[float, ...]
+    converged: bool | None
+    shown: int
+    coupling: Coupling = field(repr=False)
+    states: dict[int, DeckState] = field(default_factory=dict, repr=False)
+
+    # ---- the iteration
+
+    @property
+    def iterations(self) -> int:
+        """Number of solves after the rigid one."""
+        return len(self.passes) - 1
+
+    @property
+    def ratios(self) -> np.ndarray:
+        """Ratio of successive changes: the contraction, shape (iterations - 1,)."""
+        changes = np.array(self.changes)
+        # NaN after a change of nothing, as of bare axle loads.
+        nothing = np.full(max(len(changes) - 1, 0), np.nan)
+        return np.divide(changes[1:], changes[:-1], out=nothing, where=changes[:-1] > 0.0)
+
+    @property
+    def time(self) -> np.ndarray:
+        """s, shape (n,); zero when the first axle enters."""
+        return self.coupling.time
+
+    def at(self, iteration: int) -> Crossing:
+        """Return the same crossing as it stood at an iteration; 0 is the rigid deck's forces."""
+        shown = errors.integer("iteration", iteration, most=self.iterations)
+        return replace(self, shown=shown)
+
+    @cached_property
+    def spectrum(self) -> Spectrum:
+        """Amplitude spectrum of the first car's vertical wheel force, N (Figures 12 to 16).
+
+        Of the sum over its wheels while it touches the deck, from its first axle at x = 0 to its
+        last at x = L; no window function. Eq. 3 depends on this choice.
+        """
+        first = self.coupling.cars[0]
+        advance = self.settings.passage.advance
+        reach = first.car.axles[-1].delay + self.deck.length
+        stop = int(np.floor(reach / advance + 1e-4)) + 1
+        total = first.rigid[:, 1, :stop].sum(axis=0)
+        added = self.passes[self.shown][0][:, 1, : stop - first.window.start]
+        total[first.window] += added.sum(axis=0)
+        return amplitude_spectrum(total, self.settings.time_step)
+
+    @cached_property
+    def deviations(self) -> Deviations:
+        """Eq. 3 of every iteration against the rigid deck and the one before (Table 3)."""
+        spectra = [self.at(i).spectrum for i in range(self.iterations + 1)]
+        pairs = zip(spectra[:-1], spectra[1:], strict=True)
+        return Deviations(
+            np.array([deviation_percent(s, spectra[0]) for s in spectra[1:]]),
+            np.array([deviation_percent(after, before) for before, after in pairs]),
+        )
+
+    # ---- the train
+
+    @cached_property
+    def wheel_forces(self) -> np.ndarray:
+        """All wheel forces on the deck, N, shape (wheels, 2, n), static part included.
+
+        Lateral before vertical; order of wheels as in ``train.wheels``. After a car has left the
+        deck its motion decays freely on the track.
+        """
+        return frozen(np.concatenate([self._wheels_of(c) for c in self.coupling.cars]))
+
+    @cached_property
+    def _known(self) -> dict[int, np.ndarray]:
+        """Wheel forces by car, as far as they were asked for."""
+        return {}
+
+    def _wheels_of(self, c: CoupledCar) -> np.ndarray:
+        """Wheel forces of one car, shape (its wheels, 2, n)."""
+        number = c.car.number
+        if number not in self._known:
+            felt = self._felt if self.shown > 0 else None
+            forces = self.coupling.car_wheel_forces(c, self.passes[self.shown], felt)
+            self._known[number] = frozen(forces)
+        return self._known[number]
+
+    @cached_property
+    def _felt(self) -> DeckState:
+        """The deck's motion that the forces shown answer to.
+
+        That of the pass before, or, solved directly, their own.
+        """
+        direct = self.settings.interaction == "direct"
+        return self.state if direct else self.at(self.shown - 1).state
+
+    def wheel_force(self, car: int = 1, wheel: int = 1) -> History:
+        """Return lateral and vertical force of one wheel on the deck, N, static part included.
+
+        Car and wheel are numbered from 1.
+        """
+        for w, forces in zip(self.train.wheels, self.wheel_forces, strict=True):
+            if (w.car, w.number) == (car, wheel):
+                values = dict(zip(("force_y", "force_z"), forces, strict=True))
+                where = f"car {car}, wheel {wheel}"
+                return History(self.time, values, {"force_y": "N", "force_z": "N"}, where)
+        allowed = "no such (car, wheel) in this train"
+        raise InputError("wheel", (car, wheel), allowed, "Both are counted from 1")
+
+    @cached_property
+    def wheel_unloading(self) -> np.ndarray:
+        """1 - force / static force of every wheel, shape (wheels, n); 1: it would lift."""
+        static = np.array([wheel.static_load for wheel in self.train.wheels])
+        return 1.0 + self.wheel_forces[:, 1] / static[:, None]
+
+    @cached_property
+    def body_accelerations(self) -> np.ndarray:
+        """Accelerations of every car body, m/s2, shape (cars, 3, 2, n).
+
+        Front, middle, rear; lateral, vertical; see `Vehicle.sampled_body`. Over the whole record.
+        No cars for bare axle loads.
+        """
+        if not self.train.kinds():
+            return frozen(np.zeros((0, 3, 2, len(self.time))))
+        rigid = self.train.rigid_accelerations(self.track, self.settings.passage)
+        if self.shown > 0:
+            added = self.coupling.body_accelerations(self._felt)
+            rigid = [r + a for r, a in zip(rigid, added, strict=True)]
+        return frozen(np.array(rigid))
+
+    def car_forces(self, car: int = 1, at: str = "track", static: bool = True) -> History:
+        """Return one car's wheel forces condensed to five components (Figures 9 to 11).
+
+        Over the whole record.
+
+        Parameters
+        ----------
+        car : int
+            From 1.
+        at : {"track", "centre"}
+            At rail level below the car's middle, or at the car body's centre of mass (as the paper
+            prints it).
+        static : bool
+            Whether the weight is counted.
+        """
+        errors.choice("at", at, ("track", "centre"))
+        own = self.train.car(car)
+        forces = self._wheels_of(self.coupling.cars[own.number - 1])
+        if not static:
+            forces = forces - own.static_forces[..., None]
+        resultant = np.tensordot(own.condensation("condensed").matrix[0], forces, 2)
+        values = dict(zip(CONDENSED, resultant, strict=True))
+        if at == "centre":
+            x, y, z = own.vehicle.body.position
+            force_y, force_z = values["force_y"], values["force_z"]
+            values["moment_x"] = values["moment_x"] - y * force_z + z * force_y
+            values["moment_y"] = values["moment_y"] + x * force_z
+            values["moment_z"] = values["moment_z"] - x * force_y
+        units = {c: "N" if c.startswith("force") else "N m" for c in CONDENSED}
+        return History(self.time, values, units, f"car {car}")
+
+    # ---- the deck's motion
+
+    @cached_property
+    def _loads(self) -> list[np.ndarray]:
+        return self.coupling.station_loads(self.passes[self.shown])
+
+    @property
+    def state(self) -> DeckState:
+        """The deck's modal state at the iteration shown, computed when it is first asked for."""
+        if self.shown not in self.states:
+            self.states[self.shown] = self.coupling.deck_state(self._loads)
+        return self.states[self.shown]
+
+    @property
+    def _modal_acceleration(self) -> np.ndarray:
+        s = self.state
+        return self.deck.acceleration(s.q, s.velocity, s.modal_force)
+
+    def displacement(self, x: float, self_weight: bool = False) -> History:
+        """Return displacement_y, displacement_z (m) and rotation_x (rad) of the deck axis at x (m).
+
+        Parameters
+        ----------
+        x : float
+            m along the deck.
+        self_weight : bool
+            Whether the sag under the deck's own weight is added.
+        """
+        history = self._motion("displacement", x, self.state.q, ("m", "m", "rad"))
+        if self_weight:
+            line = self.deck.recovery.section("displacement_z", x)
+            if self.deck.recovery.lacks:
+                raise InputError("deck", self.deck.name, self.deck.recovery.lacks)
+            history.values["displacement_z"] += line.self_weight
+        return history
+
+    def velocity(self, x: float) -> History:
+        """Return velocity_y, velocity_z (m/s), velocity_roll (rad/s) of the deck axis at x (m)."""
+        return self._motion("velocity", x, self.state.velocity, ("m/s", "m/s", "rad/s"))
+
+    def acceleration(self, x: float) -> History:
+        """Return acceleration_y, acceleration_z (m/s2) and acceleration_roll (rad/s2) at x (m).
+
+        Wrong when: the cut-off, the highest frequency of the deck's modes kept, is not stated with
+        it; accelerations do not converge with the number of modes.
+        """
+        units = "m/s2", "m/s2", "rad/s2"
+        return self._motion("acceleration", x, self._modal_acceleration, units)
+
+    def _motion(self, kind: str, x: float, modal: np.ndarray, units: tuple[str, ...]) -> History:
+        x = errors.number("x", x, least=0.0, most=self.deck.length, unit="m")
+        shape = self.deck.shapes(np.array([x]))[0]
+        rolls = "rotation_x" if kind == "displacement" else f"{kind}_roll"
+        names = [f"{kind}_y", f"{kind}_z", rolls]
+        values = {}
+        for c, (name, has) in enumerate(zip(names, self.deck.has.values(), strict=True)):
+            values[name] = shape[:, c] @ modal if has else np.full(modal.shape[1], np.nan)
+        return History(self.time, values, dict(zip(names, units, strict=True)), f"x = {x:g} m")
+
+    # ---- forces in and below the deck
+
+    def section_forces(self, x: float, self_weight: bool = False) -> History:
+        """Return bending moments, torsion (N m) and shear forces (N) at x (m).
+
+        moment_vertical, moment_lateral, torsion, shear_vertical, shear_lateral, with the static
+        correction of the modes left out; at an inner bearing the face just before it. NaN where
+        the deck has no such stiffness.
+
+        Raises
+        ------
+        InputError
+            A deck of which only modes are known.
+        """
+        self._refuse_lacks()
+        lines = {name: self.deck.recovery.section(name, x) for name in _FORCES}
+        return self._recovered(lines, SECTION_QUANTITIES, self_weight, f"x = {x:g} m")
+
+    def reactions(self, self_weight: bool = False) -> dict[float, History]:
+        """Return the forces of every bearing line on the deck, by place (m).
+
+        force_x, force_y, force_z (N), moment_x (N m, about the axis).
+
+        Raises
+        ------
+        InputError
+            A deck of which only modes are known.
+        """
+        self._refuse_lacks()
+        result = {}
+        for support in self.deck.supports:
+            lines = {n: self.deck.recovery.reaction(n, support) for n in REACTION_QUANTITIES}
+            where = f"bearing at {support:g} m"
+            result[support] = self._recovered(lines, REACTION_QUANTITIES, self_weight, where)
+        return result
+
+    def bearing_forces(self, self_weight: bool = False) -> dict[int, History]:
+        """Return forces (N) and moments about itself (N m) of every bearing, by its number from 1.
+
+        They act on the deck. A bearing that pulls the deck down, force_z < 0 with the self-weight,
+        would lift. NaN where it holds no such freedom.
+
+        Raises
+        ------
+        InputError
+            A deck that knows no single bearings.
+        """
+        self._refuse_lacks()
+        if not self.deck.bearings:
+            allowed = "knows bearing lines only, no single bearings"
+            raise InputError("deck", self.deck.name, allowed, "Use reactions()")
+        result = {}
+        for number, (x, y, z) in enumerate(self.deck.bearings, start=1):
+            lines = {n: self.deck.recovery.bearing(number, n) for n in BEARING_QUANTITIES}
+            where = f"bearing {number} at x = {x:g}, y = {y:g}, z = {z:g} m"
+            result[number] = self._recovered(lines, BEARING_QUANTITIES, self_weight, where)
+        return result
+
+    def _refuse_lacks(self) -> None:
+        if self.deck.recovery.lacks:
+            raise InputError("deck", self.deck.name, self.deck.recovery.lacks)
+
+    def _recovered(
+        self, lines: dict[str, Line | None], units: dict[str, str], self_weight: bool, where: str
+    ) -> History:
+        values = {}
+        for name, line in lines.items():
+            static = self.static(line) if line is not None else None
+            state = self.state
+            values[name] = self.deck.recovered(line, state.q, state.modal_force, static)
+            if self_weight and line is not None:
+                values[name] = values[name] + line.self_weight
+        return History(self.time, values, {n: units[n] for n in lines}, where)
+
+    # ---- along the deck
+
+    def envelope(self, quantity: str, x: Sequence[float] | None = None) -> Envelope | None:
+        """Return a quantity at many places along the deck.
+
+        Parameters
+        ----------
+        quantity : str
+            One of `ENVELOPE`.
+        x : sequence of float, optional
+            m; default 41 places, ends included.
+
+        Returns
+        -------
+        Envelope or None
+            None where the deck has no such stiffness, or it cannot be recovered.
+        """
+        errors.choice("quantity", quantity, ENVELOPE)
+        if x is None:
+            x = np.linspace(0.0, self.deck.length, STATIONS).round(9)
+        x = errors.numbers("x", x, least=0.0, most=self.deck.length, unit="m")
+        deck, state = self.deck, self.state
+        if quantity in ("displacement_z", "acceleration_z"):
+            if not deck.has["z"]:
+                return None
+            modal = state.q if quantity == "displacement_z" else self._modal_acceleration
+            return Envelope(x, self.time, deck.shapes(x)[:, :, 1] @ modal)
+        lines = [deck.recovery.section(quantity, place) for place in x]
+        if lines[0] is None:
+            return None
+        modal = np.array([line.modal for line in lines])
+        values = modal @ state.q
+        values -= (modal / (2 * np.pi * deck.frequencies_hz) ** 2) @ state.modal_force
+        values += self.statics(lines)
+        return Envelope(x, self.time, values)
+
+    # ---- statics
+
+    def static(self, line: Line) -> np.ndarray:
+        """Return what an influence line gives under the loads of every instant, standing still.
+
+        Shape (n,).
+        """
+        return self.statics([line])[0]
+
+    def statics(self, lines: Sequence[Line]) -> np.ndarray:
+        """Return `static` of several influence lines, shape (lines, n)."""
+        total = np.zeros((len(lines), len(self.time)))
+        stations = self.coupling.loads
+        for which in range(len(stations.tables)):
+            # Stations that meet the samples alike share the line's values.
+            members = np.flatnonzero(stations.which == which)
+            longest = members[np.argmax(stations.counts[members])]
+            instants = self.time[stations.starts[longest] :][: stations.counts[longest]]
+            x = self.settings.speed * instants - self.coupling.load_delays[longest]
+            x = np.clip(x, 0.0, self.deck.length)
+            values = np.array([line.influence(x)[:, 0].T for line in lines])
+            couples = len(self._loads[members[0]]) == 5
+            if couples:
+                slopes = np.array([line.influence(x, 1)[:, 0].T for line in lines])
+            for station in members:
+                load, count = self._loads[station], stations.counts[station]
+                part = total[:, stations.starts[station] :][:, :count]
+                for c in range(3):
+                    part += values[:, c, :count] * load[c]
+                if couples:
+                    part += slopes[:, 0, :count] * load[4] - slopes[:, 1, :count] * load[3]
+        return total
+
+    def static_extremes(self, line: Line) -> tuple[float, float]:
+        """Return the smallest and largest value while the static axle loads move over, V -> 0.
+
+        Zero at most and zero at least. Places of the train: steps of 1/500 of the deck, and every
+        axle just before and behind every end of the line's pieces that may be a kink or a jump, so
+        that peaks are met exactly.
+        """
+        length, offset = self.deck.length, self.settings.track_offset
+        axles = self.train.placed_axles
+        delays = np.array([axle.delay for axle in axles])
+        loads = -np.array(
+            [
+                [0.0, axle.static_load, sum(w.static_load * (offset + w.y) for w in axle.wheels)]
+                for axle in axles
+            ]
+        )
+        grid = np.linspace(0.0, length, 501)
+        edges = line.influence.edges
+        near = np.concatenate([edges - 1e-9 * length, edges + 1e-9 * length])
+        near = near[(near >= 0.0) & (near <= length)]
+        # The peaks of the line itself decide: only its kinks next to the largest values matter.
+        size = np.abs(line.influence(near)[:, 0, 1:]).max(axis=1)
+        near = near[np.argsort(size)[-8:]]
+        first = np.arange(0.0, length + delays.max() + grid[1], grid[1])
+        first = np.unique(np.concatenate([first, (delays[:, None] + near).ravel()]))
+        total = np.zeros(len(first))
+        for delay, load in zip(delays, loads, strict=True):
+            x = first - delay
+            on = (x >= 0.0) & (x <= length)
+            total[on] += line.influence(x[on])[:, 0] @ load
+        noise = 1e-12 * float(np.abs(loads).max() * np.abs(line.influence(grid)).max())
+        low, high = float(total.min()), float(total.max())
+        return (low if low < -noise else 0.0), (high if high > noise else 0.0)
