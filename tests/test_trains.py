@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import railbridge as rb
+from railbridge.trains import Passage
 
 CAR = rb.vehicle("xia2000")
 V = 20.0
@@ -16,11 +17,11 @@ def waves(wavelength, **lateral):
 
 
 def bounce(forces):
-    return abs(forces[1::2].sum())
+    return abs(forces[:, 1].sum())
 
 
 def pitch(forces):
-    return abs(sum(-c.x * f for c, f in zip(CAR.contacts, forces[1::2], strict=True)))
+    return abs(sum(-c.x * f for c, f in zip(CAR.contacts, forces[:, 1], strict=True)))
 
 
 def test_wheels_of_a_train():
@@ -38,7 +39,7 @@ def test_mixed_train_takes_half_lengths():
     short = rb.sprung_mass("m", 1e4, 1e6, length=10.0)
     train = rb.Train((CAR, short, CAR))
     assert train.centres == pytest.approx([9.05, 9.05 + 16.25, 9.05 + 32.5])
-    assert train.cars == 3 and len(train.groups()) == 2
+    assert train.cars == 3 and len(train.kinds()) == 2
 
 
 @pytest.mark.parametrize(("wavelength", "with_delays", "in_phase"), [(14.4, 75.8e3, 91.8e3), (15.0, 81.0e3, 94.2e3)])
@@ -60,7 +61,7 @@ def test_short_waves_leave_pitch_and_no_bounce():
 
 def test_worst_unloading():
     forces = rb.steady_forces(CAR, waves(14.4, lateral=rb.Harmonic(2e-3, wavelength=14.4, phase=np.pi / 2)), V)
-    assert np.abs(forces[1::2]).max() / CAR.contacts[0].static_load == pytest.approx(0.149, abs=1e-3)
+    assert np.abs(forces[:, 1]).max() / CAR.contacts[0].static_load == pytest.approx(0.149, abs=1e-3)
 
 
 @given(
@@ -74,11 +75,11 @@ def test_rigid_forces_settle_to_the_closed_form(wavelength, phase, speed, sides,
     track = rb.Track(vertical=rb.Rails(vertical, other) if sides else vertical, lateral=other)
     train = rb.Train(CAR, cars=2, car_spacing=23.7)
     h, n = 2e-3, 800
-    forces = train.rigid_forces(track, speed, h, n, 40 * speed, excitation)
+    forces = train.rigid_forces(track, Passage(speed, h, n, 40 * speed, excitation))
     steady = rb.steady_forces(CAR, track, speed, excitation)
     for car in (0, 1):
         centre = speed * h * np.arange(n) - train.centres[car]
-        exact = (steady[:, None] * np.exp(2j * np.pi * centre / wavelength)).imag
+        exact = (steady[..., None] * np.exp(2j * np.pi * centre / wavelength)).imag
         # What is left is the sampling, second order in the step.
         assert np.abs(forces[car] - exact).max() < 4e-3 * np.abs(exact).max() + 1.0
 
@@ -90,8 +91,8 @@ def test_rigid_forces_are_second_order_in_the_step():
     for h in (8e-3, 4e-3, 2e-3):
         n = round(1.6 / h)
         centre = speed * h * np.arange(n) - 9.05
-        exact = (steady[:, None] * np.exp(2j * np.pi * centre / 14.4)).imag
-        errors.append(np.abs(rb.Train(CAR).rigid_forces(track, speed, h, n, 1000.0)[0] - exact).max())
+        exact = (steady[..., None] * np.exp(2j * np.pi * centre / 14.4)).imag
+        errors.append(np.abs(rb.Train(CAR).rigid_forces(track, Passage(speed, h, n, 1000.0))[0] - exact).max())
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
     assert errors[1] / errors[2] == pytest.approx(4.0, rel=0.1)
 
@@ -101,23 +102,23 @@ def test_a_car_further_back_feels_the_same_later(spacing):
     """Cars that do not meet the samples alike are run each in its own place between them."""
     track = rb.Track(vertical=rb.Harmonic(5e-3, wavelength=11.0), lateral=rb.Harmonic(2e-3, wavelength=13.0))
     h, n = 1e-3, 4000
-    forces = rb.Train(CAR, cars=3, car_spacing=spacing).rigid_forces(track, V, h, n, 150.0)
+    forces = rb.Train(CAR, cars=3, car_spacing=spacing).rigid_forces(track, Passage(V, h, n, 150.0))
     t = h * np.arange(n)
     for car in (1, 2):
         late = car * spacing / V
-        moved = np.array([np.interp(t - late, t, f) for f in forces[0]])
+        moved = np.array([[np.interp(t - late, t, f) for f in wheel] for wheel in forces[0]])
         inside = t > late + 0.01
         scale = np.abs(forces[0]).max()
-        assert forces[car][:, inside] == pytest.approx(moved[:, inside], abs=3e-5 * scale)
+        assert forces[car][..., inside] == pytest.approx(moved[..., inside], abs=3e-5 * scale)
     # One car standing `spacing` further back, run on its own, is the same run exactly.
     if spacing == 22.5:
-        assert forces[1][:, 1125:] == pytest.approx(forces[0][:, :-1125], abs=1e-9)
+        assert forces[1][..., 1125:] == pytest.approx(forces[0][..., :-1125], abs=1e-9)
 
 
 def test_before_its_run_up_a_car_far_back_stands_on_level_track():
     train = rb.Train(CAR, cars=4, car_spacing=22.5)
-    forces = train.rigid_forces(waves(14.4), V, 1e-3, 6000, 10.0)
-    assert not forces[3][:, : int(1000 * (67.5 - 10.0) / V)].any()
+    forces = train.rigid_forces(waves(14.4), Passage(V, 1e-3, 6000, 10.0))
+    assert not forces[3][..., : int(1000 * (67.5 - 10.0) / V)].any()
     assert forces[3][:, int(1000 * 67.5 / V)].any()
 
 

@@ -12,7 +12,8 @@ from railbridge.cases import shelf
 from railbridge.vehicles import CAR_PARAMETERS, Body, Spring, Vehicle, planar_car, two_bogie_car
 
 CAR = rb.vehicle("xia2000")
-PARAMETERS = shelf.read_parameters(shelf.data_file("vehicles", "xia2000"), CAR_PARAMETERS)
+UNITS = {name: bounds.unit for name, bounds in CAR_PARAMETERS.items()}
+PARAMETERS = shelf.read_parameters(shelf.data_file("vehicles", "xia2000"), UNITS)
 NATURAL = [
     0.6451, 1.2138, 1.2298, 1.3345, 1.6768, 9.0444, 9.0552, 11.7201, 11.7201, 15.4791, 15.4824, 21.9588, 21.9589, 24.9903,
     24.9903,
@@ -88,7 +89,7 @@ def motion_of(car, translation=(0, 0), roll=0.0, pitch=0.0, yaw=0.0):
     support = [
         (translation[0] + yaw * c.x, translation[1] + roll * c.y - pitch * c.x) for c in car.contacts
     ]  # wheels at rail level, z = 0
-    return x, np.array(support).ravel()
+    return x, np.array(support)
 
 
 @pytest.mark.parametrize(
@@ -97,16 +98,16 @@ def motion_of(car, translation=(0, 0), roll=0.0, pitch=0.0, yaw=0.0):
 )
 def test_a_rigid_motion_of_car_and_track_stretches_nothing(motion):
     x, support = motion_of(CAR, **motion)
-    k = CAR.contact_stiffness.ravel()
-    rows = CAR._contact_rows()[0]
+    rows, k = CAR._contact_rows, CAR.contact_stiffness
     assert rows @ x == pytest.approx(support, abs=1e-12)
-    assert CAR.stiffness_matrix @ x == pytest.approx(rows.T @ (k * support), rel=1e-9, abs=1e-3)
+    pushed = np.einsum("wdn,wd->n", rows, k * support)
+    assert CAR.stiffness_matrix @ x == pytest.approx(pushed, rel=1e-9, abs=1e-3)
     # Statically no force on the deck; the transfer function agrees at zero frequency.
-    assert CAR.transfer(0.0) @ support == pytest.approx(np.zeros(16), abs=1e-4)
+    assert np.tensordot(CAR.transfer(0.0), support, 2) == pytest.approx(np.zeros((8, 2)), abs=1e-4)
 
 
 def test_at_high_frequency_bodies_stand_still_and_the_primaries_answer():
-    transfer = CAR.transfer(1e5)
+    transfer = CAR.transfer(1e5).reshape(16, 16)
     k, c = CAR.contact_stiffness.ravel(), CAR.contact_damping.ravel()
     assert np.diag(transfer) == pytest.approx(-(k + 2j * np.pi * 1e5 * c), rel=1e-3)
 
@@ -114,13 +115,13 @@ def test_at_high_frequency_bodies_stand_still_and_the_primaries_answer():
 def test_transfer_is_the_limit_of_the_sampled_response():
     f, h, n = 3.1, 2e-4, 100_000
     rng = np.random.default_rng(1)
-    amplitude = rng.normal(size=16) + 1j * rng.normal(size=16)
-    k, c = CAR.contact_stiffness.ravel(), CAR.contact_damping.ravel()
+    amplitude = (rng.normal(size=16) + 1j * rng.normal(size=16)).reshape(8, 2)
+    k, c = CAR.contact_stiffness, CAR.contact_damping
     t = h * np.arange(n)
     wave = np.exp(2j * np.pi * f * t)
-    u = (((k + 2j * np.pi * f * c) * amplitude)[:, None] * wave).imag
-    force = CAR.system().sampled(h)(u)[:, -2000:] - u[:, -2000:]
-    steady = ((CAR.transfer(f) @ amplitude)[:, None] * wave[-2000:]).imag
+    u = (((k + 2j * np.pi * f * c) * amplitude)[..., None] * wave).imag
+    force = CAR.sampled(h)(u)[..., -2000:]
+    steady = (np.tensordot(CAR.transfer(f), amplitude, 2)[..., None] * wave[-2000:]).imag
     assert force == pytest.approx(steady, abs=1e-5 * np.abs(steady).max())
 
 
@@ -168,8 +169,8 @@ def test_sprung_mass_closed_form():
     assert car.damped_modes().damping_ratios == pytest.approx([damping / 2 / mass / w])
     s = 2j * np.pi * 2.0
     z = stiffness + damping * s
-    assert car.transfer(2.0)[1, 1] == pytest.approx(z**2 / (mass * s**2 + z) - z)
-    assert car.transfer(2.0)[1, 1] == pytest.approx(-mass * s**2 * z / (mass * s**2 + z))
+    assert car.transfer(2.0)[0, 1, 0, 1] == pytest.approx(z**2 / (mass * s**2 + z) - z)
+    assert car.transfer(2.0)[0, 1, 0, 1] == pytest.approx(-mass * s**2 * z / (mass * s**2 + z))
     assert rb.vehicle("sprung_mass").contacts[0].static_load == pytest.approx(5750 * 9.81)
 
 
@@ -206,8 +207,9 @@ def test_forces_scale_with_the_car(factor, seed):
     }
     car = two_bogie_car("scaled", **scaled)
     assert car.modes().frequencies_hz == pytest.approx(NATURAL, rel=2e-4)
-    r = np.random.default_rng(seed).normal(size=16)
-    assert car.transfer(2.0) @ r == pytest.approx(factor * CAR.transfer(2.0) @ r, rel=1e-6)
+    r = np.random.default_rng(seed).normal(size=(8, 2))
+    ours, theirs = (np.tensordot(v.transfer(2.0), r, 2) for v in (car, CAR))
+    assert ours == pytest.approx(factor * theirs, rel=1e-6)
 
 
 def test_frames_have_units():
@@ -232,3 +234,19 @@ def test_matrices_are_kept_and_cannot_be_changed():
     for matrix in (CAR.mass_matrix, CAR.stiffness_matrix, CAR.damping_matrix, CAR.contact_stiffness, CAR.contact_damping):
         with pytest.raises(ValueError, match="read-only"):
             matrix[0, 0] = 1.0
+
+
+def test_wheels_that_rounding_sets_apart_share_an_axle():
+    """0.1 + 0.2 is not 0.3: the wheelset would weigh twice."""
+    body = Body("mass", 1e4, (1e4, 1e4, 1e4), (0.0, 0.0, 1.0), ("z", "roll", "pitch"))
+    places = [(0.3, 0.8), (0.1 + 0.2, -0.8), (-0.3, 0.8), (-0.3, -0.8)]
+    springs = tuple(Spring("mass", "rail", (x, y, 0.0), (0.0, 1e6), (0.0, 1e3)) for x, y in places)
+    car = Vehicle("cart", (body,), springs, 2.0, static_wheelset_mass=1000.0)
+    assert [axle.wheels for axle in car.axles] == [(0, 1), (2, 3)]
+    assert [contact.y for contact in car.contacts] == [0.8, -0.8, 0.8, -0.8]
+    assert car.weight == pytest.approx((1e4 + 2 * 1000.0) * 9.81)
+    assert sum(contact.static_load for contact in car.contacts) == pytest.approx(car.weight)
+    train = rb.Train(car, cars=2)
+    assert [axle.delay for axle in train.placed_axles] == pytest.approx([0.0, 0.6, 2.0, 2.6])
+    run = rb.cross(train, rb.deck("viaduct36"), speed=20.0, interaction="rigid")
+    assert len(run.coupling.axles.starts) == 4
