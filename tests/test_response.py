@@ -80,8 +80,8 @@ def test_oscillator_under_a_ramp(ratio, step):
 
 
 def test_critical_damping_uses_the_block_and_never_garbage():
-    assert oscillator(12.0, 1.0).sampled(0.01).block is not None
-    assert oscillator(12.0, 0.9).sampled(0.01).block is None
+    assert oscillator(12.0, 1.0).sampled(0.01).coefficients is None
+    assert oscillator(12.0, 0.9).sampled(0.01).coefficients is not None
     triple = LinearSystem(-np.eye(3) * 5 + np.diag([1.0, 1.0], 1), np.array([[0.0], [0.0], [1.0]]), np.eye(3))
     t = np.linspace(0, 2, 201)
     y = triple.sampled(t[1])(np.zeros((1, 201)), np.array([0.0, 0.0, 1.0]))
@@ -111,7 +111,7 @@ def test_a_high_frequency_is_no_reason_for_the_slow_block():
     t = h * np.arange(n)
     for omega in (1e5, 1e9):
         system = oscillator(omega, 0.01).sampled(h)
-        assert system.block is None
+        assert system.coefficients is not None
         q, v = closed_form(omega, 0.01, t)
         y = system(t[None])
         assert y[0] == pytest.approx(q, rel=1e-9, abs=1e-12 / omega**2)

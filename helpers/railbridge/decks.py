@@ -1,5 +1,4 @@
-r"""A deck is a modal deck: frequencies, damping, shapes along its axis, and how to recover the
-rest.
+r"""A deck is a modal deck: frequencies, damping, shapes, and how to recover the rest.
 
 With mass-normalised shapes v_m, w_m (lateral, vertical) and theta_m (twist) each mode obeys
 
@@ -23,12 +22,12 @@ from typing import Protocol
 import numpy as np
 
 from . import errors
-from .errors import InputError, frozen
+from .errors import InputError, Range, frozen
 from .guideways import Guideway, PiecewiseCubic
 from .response import SampledModes, sampled_modes
 
 __all__ = [
-    "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line", "ModesOnly", "Recovery",
+    "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line", "ModesOnly", "RATIO", "Recovery",
     "checked_damping", "damping_ratios", "rayleigh", "rayleigh_ratio",
 ]  # fmt: skip
 
@@ -42,13 +41,17 @@ BEARING_QUANTITIES = {**REACTION_QUANTITIES, "moment_y": "N m", "moment_z": "N m
 """What a deck recovers of one bearing, with units; moments about the bearing itself."""
 
 
+RATIO = Range(least=0.0, most=0.5)
+"""What a damping ratio may be, share of critical."""
+
+
 def rayleigh(ratio: float, frequencies_hz: Sequence[float]) -> tuple[float, float]:
     """Return alpha (1/s) and beta (s) that give one damping ratio at two frequencies (Hz).
 
     ``zeta = alpha / (2 omega) + beta omega / 2``; Section 2.4 of the paper asks 3 % at modes 1 and
     5.
     """
-    ratio = errors.number("ratio", ratio, least=0.0, most=0.5)
+    ratio = RATIO.checked("ratio", ratio)
     f1, f2 = errors.numbers("frequencies_hz", frequencies_hz, count=2, above=0.0, unit="Hz")
     if f1 == f2:
         raise InputError(
@@ -251,8 +254,7 @@ class Deck(Guideway):
         return pd.DataFrame(columns, index=pd.RangeIndex(1, len(self.mode_names) + 1, name="mode"))
 
     def sampled(self, time_step: float) -> SampledModes:
-        """Prepare the modes for one time step (s); they take modal forces and give coordinates and
-        velocities."""
+        """Return what gives modal coordinates and velocities from modal forces, at a time step (s)."""
         return sampled_modes(2 * np.pi * self.frequencies_hz, self.damping_ratios, time_step)
 
     def acceleration(

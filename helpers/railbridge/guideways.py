@@ -41,8 +41,10 @@ class PiecewiseCubic:
     coefficients: np.ndarray
 
     def __call__(self, x: np.ndarray, derivative: int = 0) -> np.ndarray:
-        """Evaluate at x (m), shape (k,), or differentiate up to twice by x; returns shape (k, n,
-        3). Zero off the deck."""
+        """Return values at x (m), shape (k,), or their first or second derivative by x.
+
+        Shape (k, n, 3). Zero off the deck.
+        """
         x = np.asarray(x, dtype=float)
         i = np.clip(np.searchsorted(self.edges, x, side="right") - 1, 0, len(self.edges) - 2)
         h = np.diff(self.edges)[i]
@@ -88,8 +90,10 @@ class Stations:
         return tuple(slice(*np.searchsorted(self.pairs[1], [c, c + 1])) for c in range(3))
 
     def alike(self, stations: np.ndarray) -> list[np.ndarray]:
-        """Return which of some stations (numbers from 0) share a table: positions within
-        `stations`, a group each."""
+        """Return which of some stations (numbers from 0) share a table.
+
+        Positions within `stations`, a group each.
+        """
         which = self.which[stations]
         return [np.flatnonzero(which == table) for table in np.unique(which)]
 
@@ -128,13 +132,13 @@ class Stations:
         return total
 
     def ordered(self, q: np.ndarray, velocity: np.ndarray) -> np.ndarray:
-        """Return modal coordinates and velocities, shape (modes, n), of each pair's mode: shape (2,
-        pairs, n)."""
+        """Return modal coordinates and velocities of each pair's mode, shape (2, pairs, n)."""
         return np.stack([q[self.pairs[0]], velocity[self.pairs[0]]])
 
     def motion(self, state: np.ndarray, stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return what stations that share a table meet: y, z, roll of the deck, and their total
-        time derivatives.
+        """Return what stations that share a table meet.
+
+        y, z and roll of the deck, and their total time derivatives.
 
         Parameters
         ----------
@@ -160,8 +164,10 @@ class Stations:
 
 
 def _windows(values: np.ndarray, starts: np.ndarray, count: int) -> np.ndarray:
-    """Return `count` samples from each start on, shape (..., starts, count): a view where starts
-    are evenly spaced."""
+    """Return `count` samples from each start on, shape (..., starts, count).
+
+    A view where starts are evenly spaced.
+    """
     missing = int(starts.max()) + count - values.shape[-1]
     if missing > 0:
         values = np.concatenate([values, np.zeros((*values.shape[:-1], missing))], axis=-1)
@@ -216,8 +222,7 @@ class Guideway:
         )
 
     def track_offset(self, track: float | str) -> float:
-        """Return a track's distance to the left of the axis, m, from its name or from the number
-        itself."""
+        """Return a track's distance to the left of the axis, m, from its name or as given."""
         if isinstance(track, str):
             if not self.tracks:
                 raise InputError(
@@ -273,8 +278,10 @@ class Guideway:
 
     @cached_property
     def _pairs(self) -> tuple[tuple[np.ndarray, np.ndarray], PiecewiseCubic]:
-        """The (mode, component) pairs that are not zero, sorted by component, and their shapes as
-        components of one function."""
+        """The (mode, component) pairs that are not zero, sorted by component.
+
+        And their shapes as components of one function.
+        """
         component, mode = np.nonzero(np.any(self.shapes.coefficients != 0.0, axis=(0, 1)).T)
         coefficients = np.ascontiguousarray(self.shapes.coefficients[:, :, None, mode, component])
         return (mode, component), PiecewiseCubic(self.shapes.edges, coefficients)

@@ -1,16 +1,17 @@
 r"""Exact response of a linear system to sampled, piecewise-linear input.
 
-The system is ``x' = A x + B u, y = C x``. With ``A = V diag(s) W`` and ``W = inv(V)``, each modal coordinate
-``z = W x`` obeys ``z' = s z + w`` with ``w = W B u``. If w runs linearly from ``w[k]`` to ``w[k+1]`` over a step h,
-the solution at the end of the step is, exactly,
+The system is ``x' = A x + B u, y = C x``. With ``A = V diag(s) W`` and ``W = inv(V)``, each modal
+coordinate ``z = W x`` obeys ``z' = s z + w`` with ``w = W B u``. If w runs linearly from ``w[k]``
+to ``w[k+1]`` over a step h, the solution at the end of the step is, exactly,
 
     z[k+1] = a z[k] + b0 w[k] + b1 w[k+1],
     a = exp(s h),   b1 = h phi2(s h),   b0 = h (phi1(s h) - phi2(s h)),
     phi1(x) = (exp(x) - 1) / x,   phi2(x) = (phi1(x) - 1) / x.
 
-This is a first-order digital filter for each mode, and `scipy.signal.lfilter` runs it in compiled code. It has no
-stability limit and no algorithmic damping; its only error is that the input is sampled. Shock-spectrum practice knows
-it as the ramp-invariant filter (Smallwood 1981; ISO 18431-4).
+This is a first-order digital filter for each mode, and `scipy.signal.lfilter` runs it in compiled
+code. It has no stability limit and no algorithmic damping; its only error is that the input is
+sampled. Shock-spectrum practice knows it as the ramp-invariant filter (Smallwood 1981; ISO
+18431-4).
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.linalg import eig, expm, matrix_balance
-from scipy.signal import lfilter
+from scipy.signal import lfilter, lsim
 
 from .errors import number
 
@@ -30,12 +31,15 @@ __all__ = [
 ]  # fmt: skip
 
 _WORST_CONDITION = 1e6
-"""Condition of the eigenvectors above which the modes are not trusted: about ten digits would be left."""
+"""Condition of the eigenvectors above which the modes are not trusted: about ten digits would be
+left."""
 _NEARLY_CRITICAL = 0.9999
 """Damping ratio from which Im(z) / omega_d would lose digits."""
 
 
-def ramp_coefficients(poles: np.ndarray, time_step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def ramp_coefficients(
+    poles: np.ndarray, time_step: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return a, b0 and b1 of the exact step for input that is linear between samples.
 
     Parameters
@@ -54,7 +58,8 @@ def ramp_coefficients(poles: np.ndarray, time_step: float) -> tuple[np.ndarray, 
     safe = np.where(small, 1.0, x)
     phi1 = np.expm1(safe) / safe
     phi2 = (phi1 - 1.0) / safe
-    # The closed form of phi2 loses eps/|x|^2 by cancellation, so near zero it is summed as sum x^j / (j+2)!.
+    # The closed form of phi2 loses eps/|x|^2 by cancellation, so near zero it is summed as sum x^j
+    # / (j+2)!.
     near = np.where(small, x, 0.0)
     series = np.zeros_like(x)
     for j in range(14, -1, -1):
@@ -82,15 +87,15 @@ class LinearSystem:
     def sampled(self, time_step: float) -> SampledResponse:
         """Prepare the exact response at a fixed time step (s)."""
         h = number("time_step", time_step, above=0.0, unit="s")
-        if self._modal is None:
-            return self._block(h)
-        poles, left, right, inverse = self._modal
-        return SampledResponse(h, ramp_coefficients(poles, h), left, right, inverse, None)
+        return SampledResponse(
+            h, self, None if self.modal is None else ramp_coefficients(self.modal[0], h)
+        )
 
     @cached_property
-    def _modal(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None:
-        """Poles, W B, C V and W of the modes with Im(s) >= 0, which do not depend on the step; None if they nearly coincide."""
-        # Displacements and velocities differ in size by the frequency: balanced, that does not count against the eigenvectors.
+    def modal(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None:
+        """Poles, W B, C V and W of the modes with Im(s) >= 0; None if they nearly coincide."""
+        # Displacements and velocities differ in size by the frequency: balanced, that does not
+        # count against the eigenvectors.
         balanced, (scale, _) = matrix_balance(self.a, permute=False, separate=True)
         poles, vectors = eig(balanced)
         if np.linalg.cond(vectors) > _WORST_CONDITION:
@@ -98,13 +103,18 @@ class LinearSystem:
         vectors, inverse = scale[:, None] * vectors, np.linalg.inv(vectors) / scale
         keep = poles.imag >= 0.0
         weight = np.where(poles[keep].imag > 0.0, 2.0, 1.0)
-        return poles[keep], (inverse @ self.b)[keep], (self.c @ vectors)[:, keep] * weight, inverse[keep]
+        return (
+            poles[keep],
+            (inverse @ self.b)[keep],
+            (self.c @ vectors)[:, keep] * weight,
+            inverse[keep],
+        )
 
     def step(self, time_step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return E, B0 and B1 of the exact step ``x[k+1] = E x[k] + B0 u[k] + B1 u[k+1]`` in the system's own coordinates.
+        """Return E, B0 and B1 of the exact step ``x[k+1] = E x[k] + B0 u[k] + B1 u[k+1]``.
 
-        The matrix exponential of the system with its input and the input's rate as further states gives all three, whether
-        or not A has distinct eigenvectors.
+        The matrix exponential of the system with its input and the input's rate as further states
+        gives all three, whether or not A has distinct eigenvectors.
         """
         n, p = self.b.shape
         augmented = np.zeros((n + 2 * p, n + 2 * p))
@@ -115,23 +125,39 @@ class LinearSystem:
         b1 = whole[:n, n + p :]
         return whole[:n, :n], whole[:n, n : n + p] - b1, b1
 
-    def _block(self, h: float) -> SampledResponse:
-        """Use the step of the whole system where its eigenvectors nearly coincide."""
-        matrices = self.step(h)
-        n, p = self.b.shape
-        return SampledResponse(h, matrices, np.eye(p), self.c, np.eye(n), matrices)
+    def stepped(self, u: np.ndarray, x0: np.ndarray | None, time_step: float) -> np.ndarray:
+        """Run the system step by step, for the rare one whose eigenvectors nearly coincide.
+
+        Arguments and result as for `SampledResponse`. `scipy.signal.lsim` takes the input as linear
+        between samples, too, by a matrix exponential that needs no eigenvectors.
+        """
+        whole = self.a, self.b, self.c, np.zeros((len(self.c), self.b.shape[1]))
+        time = time_step * np.arange(u.shape[-1])
+        runs = u.reshape(len(u), -1, u.shape[-1])
+        y = [
+            lsim(whole, runs[:, i].T, time, x0)[1].reshape(len(time), -1).T
+            for i in range(runs.shape[1])
+        ]
+        return np.stack(y, axis=1).reshape(len(self.c), *u.shape[1:])
 
 
 @dataclass(frozen=True)
 class SampledResponse:
-    """A linear system ready to be run at one time step; made by `LinearSystem.sampled`."""
+    """A linear system ready to be run at one time step; made by `LinearSystem.sampled`.
+
+    Attributes
+    ----------
+    time_step : float
+        s.
+    system : LinearSystem
+    coefficients : tuple of ndarray, shape (m,), or None
+        a, b0 and b1 of every mode, see `ramp_coefficients`; None where the eigenvectors nearly
+        coincide.
+    """
 
     time_step: float
-    coefficients: tuple[np.ndarray, np.ndarray, np.ndarray]
-    left: np.ndarray
-    right: np.ndarray
-    to_modal: np.ndarray
-    block: tuple[np.ndarray, np.ndarray, np.ndarray] | None
+    system: LinearSystem
+    coefficients: tuple[np.ndarray, np.ndarray, np.ndarray] | None
 
     def __call__(self, u: np.ndarray, x0: np.ndarray | None = None) -> np.ndarray:
         """Run the system.
@@ -148,43 +174,40 @@ class SampledResponse:
         ndarray, shape (q, ..., n)
         """
         u = np.asarray(u, dtype=float)
-        if self.block is not None:
-            return self._run_block(u, x0)
+        if self.coefficients is None:
+            return self.system.stepped(u, x0, self.time_step)
+        _, left, right, to_modal = self.system.modal
         a, b0, b1 = self.coefficients
         count, batch = len(a), u.shape[1:]
-        start = np.zeros(count) if x0 is None else self.to_modal @ x0
-        # Real and imaginary parts stand one above the other, so that both products below are plain real ones.
+        start = np.zeros(count) if x0 is None else to_modal @ x0
+        # Real and imaginary parts stand one above the other, so that both products below are plain
+        # real ones.
         parts = np.empty((2, count, *batch))
-        single = self.left.shape[1] == 1
+        single = left.shape[1] == 1
         if not single:
-            np.matmul(np.vstack([self.left.real, self.left.imag]), u.reshape(len(u), -1), out=parts.reshape(2 * count, -1))
+            np.matmul(
+                np.vstack([left.real, left.imag]),
+                u.reshape(len(u), -1),
+                out=parts.reshape(2 * count, -1),
+            )
         w = u[0] if single else np.empty(batch, dtype=complex)
         for m in range(count):
-            gain = self.left[m, 0] if single else 1.0
+            gain = left[m, 0] if single else 1.0
             if not single:
                 w.real, w.imag = parts[0, m], parts[1, m]
             # A filter that starts from nothing would put b1 w[0] into the first sample.
             initial = start[m] - gain * b1[m] * w[..., :1]
             z = lfilter([gain * b1[m], gain * b0[m]], [1.0, -a[m]], w, axis=-1, zi=initial)[0]
             parts[0, m], parts[1, m] = z.real, z.imag
-        y = np.hstack([self.right.real, -self.right.imag]) @ parts.reshape(2 * count, -1)
+        y = np.hstack([right.real, -right.imag]) @ parts.reshape(2 * count, -1)
         return y.reshape(len(y), *batch)
-
-    def _run_block(self, u: np.ndarray, x0: np.ndarray | None) -> np.ndarray:
-        e, e0, e1 = self.block
-        n = u.shape[-1]
-        runs = u.reshape(len(u), -1, n)
-        x = np.empty((len(e), runs.shape[1], n))
-        x[..., 0] = 0.0 if x0 is None else np.asarray(x0, dtype=float)[:, None]
-        for k in range(n - 1):
-            x[..., k + 1] = e @ x[..., k] + e0 @ runs[..., k] + e1 @ runs[..., k + 1]
-        y = self.right @ x.reshape(len(e), -1)
-        return y.reshape(len(y), *u.shape[1:])
 
 
 @dataclass(frozen=True)
 class SampledModes:
-    """Independent oscillators ready to be run at one time step, all from rest; made by `sampled_modes`.
+    """Independent oscillators ready to be run at one time step, all from rest.
+
+    Made by `sampled_modes`.
 
     Attributes
     ----------
@@ -205,7 +228,9 @@ class SampledModes:
         The first sample of the force does not move anything.
         """
         q, velocity = np.empty_like(force), np.empty_like(force)
-        for m, (f, a, b0, b1, s) in enumerate(zip(force, *self.coefficients, self.poles, strict=True)):
+        for m, (f, a, b0, b1, s) in enumerate(
+            zip(force, *self.coefficients, self.poles, strict=True)
+        ):
             if m in self.others:
                 q[m], velocity[m] = self.others[m](f[None])
                 continue
@@ -219,20 +244,26 @@ class SampledModes:
 def sampled_modes(omega: np.ndarray, ratio: np.ndarray, time_step: float) -> SampledModes:
     r"""Prepare modes ``q'' + 2 ratio omega q' + omega^2 q = f`` for one time step (s).
 
-    With the pole ``s = -ratio omega + i omega_d`` and ``z' = s z + f``, the oscillator's impulse response
-    ``exp(-ratio omega t) sin(omega_d t) / omega_d`` gives ``q = Im(z) / omega_d`` and ``q' = Im(s z) / omega_d``: one filter
-    a mode, without eigenvectors.
+    With the pole ``s = -ratio omega + i omega_d`` and ``z' = s z + f``, the oscillator's impulse
+    response ``exp(-ratio omega t) sin(omega_d t) / omega_d`` gives ``q = Im(z) / omega_d`` and ``q'
+    = Im(s z) / omega_d``: one filter a mode, without eigenvectors.
     """
     omega, ratio = np.asarray(omega, dtype=float), np.asarray(ratio, dtype=float)
     swings = (omega > 0.0) & (ratio < _NEARLY_CRITICAL)
     safe = np.where(swings, omega, 1.0), np.where(swings, ratio, 0.0)
     poles = -safe[0] * safe[1] + 1j * safe[0] * np.sqrt(1.0 - safe[1] ** 2)
-    others = {int(m): oscillator(omega[m], ratio[m]).sampled(time_step) for m in np.flatnonzero(~swings)}
+    others = {
+        int(m): oscillator(omega[m], ratio[m]).sampled(time_step) for m in np.flatnonzero(~swings)
+    }
     return SampledModes(ramp_coefficients(poles, time_step), poles, others)
 
 
 def second_order_system(
-    mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray, force: np.ndarray, output: np.ndarray
+    mass: np.ndarray,
+    damping: np.ndarray,
+    stiffness: np.ndarray,
+    force: np.ndarray,
+    output: np.ndarray,
 ) -> LinearSystem:
     """Write ``M x'' + C x' + K x = H u`` with the state ``(x, x')``.
 
@@ -247,10 +278,12 @@ def second_order_system(
     n = len(mass)
     inverse = np.linalg.inv(mass)
     a = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ stiffness, -inverse @ damping]])
-    return LinearSystem(a, np.vstack([np.zeros_like(force), inverse @ force]), np.asarray(output, dtype=float))
+    return LinearSystem(
+        a, np.vstack([np.zeros_like(force), inverse @ force]), np.asarray(output, dtype=float)
+    )
 
 
 def oscillator(omega: float, ratio: float) -> LinearSystem:
-    """Return ``q'' + 2 ratio omega q' + omega^2 q = f`` with outputs ``(q, q')``; any damping ratio from 0 on."""
+    """Return ``q'' + 2 ratio omega q' + omega^2 q = f``, ratio >= 0, with outputs ``(q, q')``."""
     a = np.array([[0.0, 1.0], [-(omega**2), -2.0 * ratio * omega]])
     return LinearSystem(a, np.array([[0.0], [1.0]]), np.eye(2))

@@ -356,8 +356,9 @@ class Vehicle:
         return second_order_system(*matrices, rows.T, output)
 
     def sampled(self, time_step: float) -> WheelResponse:
-        """Return what gives the forces on the deck without their static part, N, from ``k r + c
-        r'``.
+        """Return what gives the forces on the deck, without their static part, from ``k r + c r'``.
+
+        Both in N.
 
         Parameters
         ----------

@@ -1,12 +1,14 @@
 """The command ``railbridge``: case files in, results out.
 
-Exit codes: 0 all is well; 1 the computer failed (disk, memory); 2 the case file or a path is wrong, with one line that names
-the key; 3 the iteration did not converge, results written all the same; 130 interrupted, nothing half-written.
+Exit codes: 0 all is well; 1 the computer failed (disk, memory); 2 the case file or a path is wrong,
+with one line that names the key; 3 the iteration did not converge, results written all the same;
+130 interrupted, nothing half-written.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import shlex
 import shutil
@@ -22,13 +24,12 @@ from typing import Any
 
 import numpy as np
 
-from ..crossing import NotConvergedError
+from ..crossing import InputWarning, NotConvergedError
 from ..errors import InputError
 from ..results import Crossing
 from ..settings import bytes_needed
-from . import copies as lessons
-from . import shelf
-from .definition import Case, case
+from . import copies, pages, shelf
+from .definition import IN_A_CASE, Case, case
 from .summary import histories, summarize, to_json
 
 __all__ = ["main"]
@@ -63,58 +64,6 @@ results (in the folder of --out; files of these names in it are replaced):
 exit codes:
   0 done    1 out of memory or disk    2 bad case file or path    3 not converged (results are written)    130 interrupted
 """
-STARTER = """\
-# A railbridge case: one train crosses one deck at one speed. All numbers are SI: m, kg, s, N.
-#
-#   railbridge run {name} --out results
-#
-# Lines that start with # are choices left out; take the mark away to use them. For an editor that completes this file:
-# railbridge schema > case.schema.json, and as the first line of this file  #:schema ./case.schema.json
-
-[deck]
-# A deck of your own, simply supported at its ends; or  file = "viaduct36"  for a shipped deck (railbridge list decks),
-# or  file = "my_deck.toml"  for a file beside this one.
-length = 20.0                           # m; or  spans = [20.0, 25.0, 20.0]  for a continuous deck
-bending_stiffness_vertical = 2.0e10     # E I about the lateral axis, N m2
-mass = 9000.0                           # kg/m
-# For lateral bending and twist; without them the deck is rigid in that way, and those results are null.
-# bending_stiffness_lateral = 1.5e11    # N m2
-# torsional_stiffness = 3.0e10          # G J, N m2; needs polar_inertia
-# polar_inertia = 50e3                  # kg m2 per m
-damping = {{ modal = 0.01 }}              # share of critical; or  {{ ratio = 0.03, frequencies_hz = [3.3, 16.3] }}  (Rayleigh)
-modes = 8                               # the lowest that loads can excite
-# tracks = {{ left = 2.0, right = -2.0 }}  # names for train.track, m left of the axis
-
-[train]
-vehicle = "xia2000"                     # a shipped vehicle (railbridge list vehicles), or a file beside this one
-cars = 2                                # or a mixed train: cars = ["power", {{ vehicle = "coach", count = 6 }}, "power"]
-# car_spacing = 22.5                    # m between the middles of cars; default: the vehicles' lengths
-# track = 0.0                           # m left of the deck axis
-# Or bare axle loads instead of vehicles:
-# axles = [0.0, 3.0, 11.0, 14.0]        # m behind the first axle
-# loads = [200e3, 200e3, 200e3, 200e3]  # N, down positive
-
-[track]                                 # irregularity of the rails; leave [track] out for perfect ones
-vertical = {{ kind = "harmonic", amplitude = 1e-3, wavelength = 10.0 }}
-# lateral = {{ kind = "harmonic", amplitude = 1e-3, wavelength = 10.0, phase = 1.5708 }}
-# Several on top of each other:  vertical = [{{ ... }}, {{ ... }}]
-# Each rail its own:  vertical = {{ left = {{ ... }}, right = {{ ... }} }}
-# Measured:  vertical = {{ kind = "table", x = [0.0, 5.0, 10.0], r = [0.0, 2e-3, 0.0] }}    # m, up positive
-
-[run]
-speed = 40.0                            # m/s; 144 km/h
-# time_step = 1e-3                      # s; chosen if left out
-# loads = "wheels"                      # how wheel forces act on the deck: wheels, bogies (one force each) or condensed (a car)
-# interaction = "iterate"               # or "rigid" (forces of a rigid deck), or "direct" (solved together, slower)
-# tolerance = 1e-8                      # the iteration stops when forces change by less than this twice in a row
-# max_iterations = 50
-# relaxation = 0.5                      # or "aitken"; for light decks and fast trains that do not converge
-# lead_in = 300.0                       # m of irregular track before the deck; default 7.5 s of travel
-# tail = 1.0                            # s after the last axle has left
-
-[output]
-points = [10.0]                         # m along the deck
-"""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -124,7 +73,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with np.errstate(all="ignore"), warnings.catch_warnings():
             warnings.simplefilter("once")
             warnings.simplefilter("ignore", RuntimeWarning)
-            warnings.showwarning = lambda message, *_, **__: _say(f"warning: {message}")
+            warnings.showwarning = lambda message, *_, **__: _say(f"warning: {_worded(message)}")
             return given.command(given)
     except InputError as error:
         _say(str(error))
@@ -135,11 +84,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         return 1
     except MemoryError:
-        _say("out of memory: use a larger run.time_step, fewer cars, or a shorter run.lead_in or run.tail")
+        _say(
+            "out of memory: use a larger run.time_step, fewer cars, or a shorter run.lead_in or run.tail"
+        )
         return 1
     except OSError as error:
         _say(f"{error.filename or 'the output'}: {error.strerror or error}")
         return 1
+
+
+def _worded(warning: Warning) -> str:
+    """Return a warning in the words of a case file."""
+    if isinstance(warning, InputWarning):
+        return f"{IN_A_CASE.get(warning.field, warning.field)} {warning.text}"
+    return str(warning)
 
 
 def _say(line: str) -> None:
@@ -148,33 +106,74 @@ def _say(line: str) -> None:
 
 def _parser() -> argparse.ArgumentParser:
     def add(name: str, command, about: str, **options: Any) -> argparse.ArgumentParser:
-        made = commands.add_parser(name, help=about, description=about[0].upper() + about[1:] + ".", **options)
+        made = commands.add_parser(
+            name, help=about, description=about[0].upper() + about[1:] + ".", **options
+        )
         made.set_defaults(command=command)
         return made
 
     raw = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser("railbridge", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=raw)
+    parser = argparse.ArgumentParser(
+        "railbridge", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=raw
+    )
     commands = parser.add_subparsers(required=True, metavar="command")
     changes = argparse.ArgumentParser(add_help=False)
     changes.add_argument("case", help="a case file (.toml), or the name of a shipped case")
     changes.add_argument(
-        "--set", metavar="KEY=VALUE", action="append", default=[], help="change a key, as in run.speed=30; may be repeated"
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        help="change a key, as in run.speed=30; may be repeated",
     )
-    run = add("run", _run, "run a case and write its results", parents=[changes], epilog=EXAMPLES, formatter_class=raw)
-    run.add_argument("--out", metavar="DIR", required=True, help="folder for the results; made if it does not exist")
+    run = add(
+        "run",
+        _run,
+        "run a case and write its results",
+        parents=[changes],
+        epilog=EXAMPLES,
+        formatter_class=raw,
+    )
+    run.add_argument(
+        "--out",
+        metavar="DIR",
+        required=True,
+        help="folder for the results; made if it does not exist",
+    )
     run.add_argument("--no-histories", action="store_true", help="write summary.json only")
-    run.add_argument("-q", "--quiet", action="store_true", help="no progress, no line at the end; errors only")
-    add("check", _check, "say whether a case can be run, and how large the run is", parents=[changes])
+    run.add_argument(
+        "-q", "--quiet", action="store_true", help="no progress, no line at the end; errors only"
+    )
+    add(
+        "check",
+        _check,
+        "say whether a case can be run, and how large the run is",
+        parents=[changes],
+    )
     new = add("new", _new, "write a commented case file that runs as it is")
     new.add_argument("file", help="file to write; one that exists is left alone")
     listing = add("list", _list, "list shipped vehicles, decks and cases")
     listing.add_argument("kind", nargs="?", choices=KINDS, help="all three if left out")
     copying = add(
-        "copy-notebooks", _copy_notebooks, "copy the notebooks, and the data files they lead to, into a folder of your own"
+        "copy-notebooks",
+        _copy_notebooks,
+        "copy the notebooks, and the data files they lead to, into a folder of your own",
     )
-    copying.add_argument("folder", metavar="DIR", help="made if it does not exist; copies that were edited or run are left alone")
-    copying.add_argument("--force", action="store_true", help="replace edited copies too; yours is kept beside as NAME.edited-1")
-    add("schema", _schema, "print the JSON schema of case files, for editors that complete and check them")
+    copying.add_argument(
+        "folder",
+        metavar="DIR",
+        help="made if it does not exist; copies that were edited or run are left alone",
+    )
+    copying.add_argument(
+        "--force",
+        action="store_true",
+        help="replace edited copies too; yours is kept beside as NAME.edited-1",
+    )
+    add(
+        "schema",
+        _schema,
+        "print the JSON schema of case files, for editors that complete and check them",
+    )
     return parser
 
 
@@ -183,13 +182,14 @@ def _case(given: argparse.Namespace) -> Case:
     for change in given.set:
         key, mark, value = change.partition("=")
         if not mark or not key.strip():
-            raise InputError("--set", change, "must be KEY=VALUE", "For instance --set run.speed=30")
+            raise InputError(
+                "--set", change, "must be KEY=VALUE", "For instance --set run.speed=30"
+            )
         try:
             changes[key.strip()] = tomllib.loads(f"value = {value}")["value"]
         except (ValueError, RecursionError):
             changes[key.strip()] = value.strip()  # a text without its quotes
-    loaded = case(given.case)
-    return loaded.replace(changes) if changes else loaded
+    return case(given.case, changes)
 
 
 def _run(given: argparse.Namespace) -> int:
@@ -211,13 +211,19 @@ def _run(given: argparse.Namespace) -> int:
 
 
 def _headline(loaded: Case, run: Crossing) -> str:
-    solved = f"converged in {run.iterations} iterations" if run.converged else f"solved ({run.settings.interaction})"
+    solved = (
+        f"converged in {run.iterations} iterations"
+        if run.converged
+        else f"solved ({run.settings.interaction})"
+    )
     x = loaded.points[0]
     value, _ = run.displacement(x).extreme("displacement_z")
     return f"{solved}, displacement at x = {x:g} m is {value * 1e3:.4g} mm"
 
 
-def _write(folder: Path, loaded: Case, run: Crossing, progress: _Progress, with_histories: bool) -> None:
+def _write(
+    folder: Path, loaded: Case, run: Crossing, progress: _Progress, with_histories: bool
+) -> None:
     if with_histories:
         for table in histories(run, loaded.points):
             done = 0
@@ -236,7 +242,9 @@ def _check(given: argparse.Namespace) -> int:
     s = loaded.settings
     seconds = (loaded.deck.length + loaded.train.length) / s.speed + s.tail
     wheels = len(loaded.train.wheels)
-    print(f"{given.case}: can be run; {wheels} wheels, {seconds:.3g} s in steps of {s.time_step:.3g} s, {needed / 1e9:.2g} GB")
+    print(
+        f"{given.case}: can be run; {wheels} wheels, {seconds:.3g} s in steps of {s.time_step:.3g} s, {needed / 1e9:.2g} GB"
+    )
     return 0
 
 
@@ -246,9 +254,11 @@ def _new(given: argparse.Namespace) -> int:
         raise InputError("file", given.file, "must end in .toml")
     try:
         with path.open("x", encoding="utf-8") as file:
-            file.write(STARTER.format(name=path.name))
+            file.write(pages.starter(path.name))
     except FileExistsError:
-        raise InputError("file", given.file, "exists already and is left alone", "Choose another name") from None
+        raise InputError(
+            "file", given.file, "exists already and is left alone", "Choose another name"
+        ) from None
     except (OSError, ValueError) as error:
         raise InputError("file", given.file, f"cannot be written ({_reason(error)})") from None
     print(f"{given.file} written; run it with: railbridge run {given.file} --out results")
@@ -266,30 +276,42 @@ def _list(given: argparse.Namespace) -> int:
 def _about(path: Path) -> str:
     """Return the first line of comment in a data file, or what the file is."""
     first = path.read_text(encoding="utf-8").partition("\n")[0]
-    return first.lstrip("# ").strip() if first.startswith("#") else "a two-bogie car, 15 freedoms" * (path.suffix == ".csv")
+    return (
+        first.lstrip("# ").strip()
+        if first.startswith("#")
+        else "a two-bogie car, 15 freedoms" * (path.suffix == ".csv")
+    )
 
 
 def _schema(given: argparse.Namespace) -> int:
-    print((shelf.data_root() / "case.schema.json").read_text(encoding="utf-8"), end="")
+    print(json.dumps(pages.schema(), indent=2))
     return 0
 
 
 def _copy_notebooks(given: argparse.Namespace) -> int:
     folder = Path(given.folder)
     with _staging(given.folder, "DIR") as (scratch, existed):
-        copies = lessons.plan(folder, given.force)
-        lessons.stage(copies, folder, scratch)
+        planned = copies.plan(folder, given.force)
+        copies.stage(planned, folder, scratch)
         if existed:
-            lessons.place(copies, folder, scratch)
+            copies.place(planned, folder, scratch)
         else:
             scratch.replace(folder)
-    for copy in copies:
+    for copy in planned:
         if copy.action in ("updated", "kept", "replaced"):
-            print(f"{copy.action:10}{copy.name}" + f"  (yours is now {copy.backup})" * bool(copy.backup))
-    count = {a: sum(c.action == a for c in copies) for a in ("copied", "updated", "replaced", "unchanged", "kept")}
+            print(
+                f"{copy.action:10}{copy.name}"
+                + f"  (yours is now {copy.backup})" * bool(copy.backup)
+            )
+    count = {
+        a: sum(c.action == a for c in planned)
+        for a in ("copied", "updated", "replaced", "unchanged", "kept")
+    }
     print(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
     if count["kept"]:
-        print("kept: changed since they were copied; --force replaces them and keeps yours beside under another name")
+        print(
+            "kept: changed since they were copied; --force replaces them and keeps yours beside under another name"
+        )
     print(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
     return 0
 
@@ -300,12 +322,14 @@ def _reason(error: Exception) -> str:
 
 @contextmanager
 def _results(out: str) -> Iterator[Path]:
-    """Give a temporary folder beside the results; what is in it becomes the results only if all went well."""
+    """Give a temporary folder beside the results; what is in it becomes the results only if all
+    went well."""
     folder = Path(out)
     with _staging(out, "--out") as (scratch, existed):
         yield scratch
         if existed:
-            # summary.json goes first and comes last: where it stands, the files beside it belong to it.
+            # summary.json goes first and comes last: where it stands, the files beside it belong to
+            # it.
             (folder / "summary.json").unlink(missing_ok=True)
             for name in FILES:
                 if (scratch / name).exists():
@@ -318,7 +342,8 @@ def _results(out: str) -> Iterator[Path]:
 
 @contextmanager
 def _staging(out: str, field: str) -> Iterator[tuple[Path, bool]]:
-    """Give a temporary folder in or beside the one that is asked for, and whether that one exists; nothing is left of it after.
+    """Give a temporary folder in or beside the one that is asked for, and whether that one exists;
+    nothing is left of it after.
 
     Raises
     ------
@@ -338,13 +363,20 @@ def _staging(out: str, field: str) -> Iterator[tuple[Path, bool]]:
         if not existed:
             folder.mkdir()  # only to see that it can be made
             folder.rmdir()
-        # In a folder that exists already the temporary one goes inside: it may be a file system of its own.
-        scratch = Path(tempfile.mkdtemp(prefix=".railbridge-", dir=folder if existed else folder.absolute().parent))
+        # In a folder that exists already the temporary one goes inside: it may be a file system of
+        # its own.
+        scratch = Path(
+            tempfile.mkdtemp(
+                prefix=".railbridge-", dir=folder if existed else folder.absolute().parent
+            )
+        )
     except (OSError, ValueError) as error:
         _remove(made)
         if isinstance(error, InputError):
             raise
-        raise InputError(field, out, f"cannot be written to ({_reason(error)})", "Choose another folder") from None
+        raise InputError(
+            field, out, f"cannot be written to ({_reason(error)})", "Choose another folder"
+        ) from None
     try:
         scratch.chmod(0o777 & ~_umask())
         yield scratch, existed
@@ -371,7 +403,8 @@ def _umask() -> int:
 
 
 class _Progress:
-    """One line on stderr that tells how far a long run is: overwritten in a terminal, once in ten seconds elsewhere."""
+    """One line on stderr that tells how far a long run is: overwritten in a terminal, once in ten
+    seconds elsewhere."""
 
     def __init__(self, quiet: bool) -> None:
         self.quiet = quiet

@@ -1,7 +1,9 @@
-"""The notebooks as copies of one's own: what belongs to them, what may be renewed and what was edited and is left alone.
+"""The notebooks as copies of one's own: what belongs to them, what may be renewed and what was
+edited and is left alone.
 
-A copy is *edited* when its bytes differ from what was copied, which a small file in the folder (`MANIFEST`) records. JupyterLab
-writes outputs into a notebook, so a copy that was run and saved counts as edited too: nothing a student did is ever lost.
+A copy is *edited* when its bytes differ from what was copied, which a small file in the folder
+(`MANIFEST`) records. JupyterLab writes outputs into a notebook, so a copy that was run and saved
+counts as edited too: nothing a student did is ever lost.
 """
 
 from __future__ import annotations
@@ -19,7 +21,13 @@ from . import shelf
 __all__ = ["MANIFEST", "Copy", "contents", "place", "plan", "stage"]
 
 MANIFEST = ".railbridge-copies.json"
-PAGES = ("README.md", "LICENSE-notebooks.md", "docs/case.md", "docs/exchange.md", "docs/crossing.png")
+PAGES = (
+    "README.md",
+    "LICENSE-notebooks.md",
+    "docs/case.md",
+    "docs/exchange.md",
+    "docs/crossing.png",
+)
 """What the notebooks lead to, besides each other and the data files."""
 
 
@@ -32,7 +40,8 @@ class Copy:
     name : str
         Place in the folder, with ``/``.
     action : {"copied", "updated", "unchanged", "kept", "replaced"}
-        New; renewed, since it was not edited; the same as the suite's; edited and left alone; edited and replaced, see `backup`.
+        New; renewed, since it was not edited; the same as the suite's; edited and left alone;
+        edited and replaced, see `backup`.
     content : bytes
         The suite's file.
     backup : str
@@ -46,22 +55,31 @@ class Copy:
 
 
 def suite_root() -> Path:
-    """Return the folder that holds ``notebooks`` and the pages: inside an installed wheel, or the checkout."""
+    """Return the folder that holds ``notebooks`` and the pages: inside an installed wheel, or the
+    checkout."""
     packaged = Path(__file__).parents[1] / "share"
     return packaged if packaged.is_dir() else Path(__file__).parents[3]
 
 
 def contents() -> dict[str, bytes]:
-    """Return every file that is copied, by its place in the folder: notebooks on top, then what they lead to.
+    """Return every file that is copied, by its place in the folder: notebooks on top, then what
+    they lead to.
 
-    Links between them are made to fit the new places; links to what is not copied become plain text.
+    Links between them are made to fit the new places; links to what is not copied become plain
+    text.
     """
     root, data = suite_root(), shelf.data_root()
     sources = {path.name: path for path in sorted((root / "notebooks").glob("[0-9][0-9]_*.ipynb"))}
     if not sources:
-        raise InputError("notebooks", None, "are missing from this installation", "Install the suite again")
+        raise InputError(
+            "notebooks", None, "are missing from this installation", "Install the suite again"
+        )
     sources |= {page: root / page for page in PAGES}
-    sources |= {f"data/{p.relative_to(data).as_posix()}": p for p in sorted(data.rglob("*.*")) if p.is_file()}
+    sources |= {
+        f"data/{p.relative_to(data).as_posix()}": p
+        for p in sorted(data.rglob("*.*"))
+        if p.is_file()
+    }
     return {name: _fitted(name, path.read_bytes(), set(sources)) for name, path in sources.items()}
 
 
@@ -79,11 +97,14 @@ def _fitted(name: str, content: bytes, known: set[str]) -> bytes:
 
 
 def _with_links(was: str, text: str, now: str, known: set[str]) -> str:
-    """Mend the relative links of a page that moves from one place of the suite to another of the folder."""
+    """Mend the relative links of a page that moves from one place of the suite to another of the
+    folder."""
 
     def mended(found: re.Match) -> str:
         label, target, anchor = found.groups(default="")
-        place = posixpath.normpath(posixpath.join(posixpath.dirname(was), target)).removeprefix("notebooks/")
+        place = posixpath.normpath(posixpath.join(posixpath.dirname(was), target)).removeprefix(
+            "notebooks/"
+        )
         if place not in known:
             return label.removeprefix("!")[1:-1]
         return f"{label}({posixpath.relpath(place, posixpath.dirname(now) or '.')}{anchor})"
@@ -97,7 +118,8 @@ def plan(folder: Path, force: bool = False) -> list[Copy]:
     Raises
     ------
     InputError
-        The folder belongs to the suite itself, or a folder stands where a file should go, or a file where a folder should.
+        The folder belongs to the suite itself, or a folder stands where a file should go, or a file
+        where a folder should.
     """
     _refuse_own(folder)
     known = _recorded(folder)
@@ -105,10 +127,27 @@ def plan(folder: Path, force: bool = False) -> list[Copy]:
     for name, content in contents().items():
         target = folder / name
         if target.is_dir():
-            raise InputError("DIR", str(target), "is a folder where a file of the suite goes", "Move it, or choose another DIR")
-        blocked = next((p for p in target.parents if p.is_relative_to(folder) and p.exists() and not p.is_dir()), None)
+            raise InputError(
+                "DIR",
+                str(target),
+                "is a folder where a file of the suite goes",
+                "Move it, or choose another DIR",
+            )
+        blocked = next(
+            (
+                p
+                for p in target.parents
+                if p.is_relative_to(folder) and p.exists() and not p.is_dir()
+            ),
+            None,
+        )
         if blocked:
-            raise InputError("DIR", str(blocked), "is a file where a folder of the suite goes", "Move it, or choose another DIR")
+            raise InputError(
+                "DIR",
+                str(blocked),
+                "is a file where a folder of the suite goes",
+                "Move it, or choose another DIR",
+            )
         if not target.exists():
             result.append(Copy(name, "copied", content))
             continue
@@ -125,7 +164,8 @@ def plan(folder: Path, force: bool = False) -> list[Copy]:
 
 
 def stage(copies: list[Copy], folder: Path, scratch: Path) -> None:
-    """Write all that will be placed into a temporary folder, so that a full disk is met before anything is replaced."""
+    """Write all that will be placed into a temporary folder, so that a full disk is met before
+    anything is replaced."""
     for copy in copies:
         if copy.action in ("copied", "updated", "replaced"):
             (scratch / copy.name).parent.mkdir(parents=True, exist_ok=True)
@@ -133,12 +173,17 @@ def stage(copies: list[Copy], folder: Path, scratch: Path) -> None:
         if copy.backup:
             (scratch / copy.backup).write_bytes((folder / copy.name).read_bytes())
     digests = _recorded(folder) | {c.name: _digest(c.content) for c in copies if c.action != "kept"}
-    (scratch / MANIFEST).write_text(json.dumps(dict(sorted(digests.items())), indent=1) + "\n", encoding="utf-8")
+    (scratch / MANIFEST).write_text(
+        json.dumps(dict(sorted(digests.items())), indent=1) + "\n", encoding="utf-8"
+    )
 
 
 def place(copies: list[Copy], folder: Path, scratch: Path) -> None:
-    """Move what was staged into the folder, each file whole: edited copies to their new names first, the record last."""
-    names = [c.backup for c in copies if c.backup] + [c.name for c in copies if (scratch / c.name).exists()]
+    """Move what was staged into the folder, each file whole: edited copies to their new names
+    first, the record last."""
+    names = [c.backup for c in copies if c.backup] + [
+        c.name for c in copies if (scratch / c.name).exists()
+    ]
     for name in [*names, MANIFEST]:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (scratch / name).replace(folder / name)
@@ -146,9 +191,13 @@ def place(copies: list[Copy], folder: Path, scratch: Path) -> None:
 
 def _refuse_own(folder: Path) -> None:
     there, root = folder.resolve(), suite_root().resolve()
-    own = [root / part for part in ("notebooks", "data", "docs", "helpers", "tests")] + [Path(__file__).resolve().parents[1]]
+    own = [root / part for part in ("notebooks", "data", "docs", "helpers", "tests")] + [
+        Path(__file__).resolve().parents[1]
+    ]
     if there == root or any(there.is_relative_to(part) for part in own):
-        raise InputError("DIR", str(folder), "belongs to the suite itself", "Choose a folder of your own")
+        raise InputError(
+            "DIR", str(folder), "belongs to the suite itself", "Choose a folder of your own"
+        )
 
 
 def _recorded(folder: Path) -> dict[str, str]:
@@ -157,7 +206,9 @@ def _recorded(folder: Path) -> dict[str, str]:
         record = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-    return {k: v for k, v in record.items() if isinstance(v, str)} if isinstance(record, dict) else {}
+    return (
+        {k: v for k, v in record.items() if isinstance(v, str)} if isinstance(record, dict) else {}
+    )
 
 
 def _digest(content: bytes) -> str:

@@ -16,7 +16,8 @@ __all__ = ["data_file", "data_names", "data_root", "read_parameters", "read_toml
 
 
 def data_root() -> Path:
-    """Return the folder of shipped data: that of RAILBRIDGE_DATA if set, inside an installed wheel, or of the checkout."""
+    """Return the folder of shipped data: that of RAILBRIDGE_DATA if set, inside an installed wheel,
+    or of the checkout."""
     if os.environ.get("RAILBRIDGE_DATA"):
         return Path(os.environ["RAILBRIDGE_DATA"])
     packaged = Path(__file__).parents[1] / "data"
@@ -24,11 +25,18 @@ def data_root() -> Path:
 
 
 def data_names(kind: str, *suffixes: str) -> list[str]:
-    """Return the names of the shipped data files of a kind (``vehicles``, ``decks``, ``cases``), of any suffix if none given."""
-    return sorted({p.stem for p in (data_root() / kind).glob("*.*") if p.suffix in (suffixes or (".csv", ".toml"))})
+    """Return the names of the shipped data files of a kind (``vehicles``, ``decks``, ``cases``), of
+    any suffix if none given."""
+    return sorted(
+        {
+            p.stem
+            for p in (data_root() / kind).glob("*.*")
+            if p.suffix in (suffixes or (".csv", ".toml"))
+        }
+    )
 
 
-def data_file(kind: str, name: str | Path) -> Path:
+def data_file(kind: str, name: str | Path, *suffixes: str) -> Path:
     """Find a data file by shipped name or by path.
 
     Parameters
@@ -36,28 +44,38 @@ def data_file(kind: str, name: str | Path) -> Path:
     kind : {"vehicles", "decks", "cases"}
         Folder of ``data``.
     name : str or Path
-        A shipped name (``xia2000``), or the path of a ``.csv`` or ``.toml`` file.
+        A shipped name (``xia2000``), or the path of a file.
+    *suffixes : str
+        Kinds of files that will do; default ``.csv`` and ``.toml``.
 
     Raises
     ------
     InputError
-        Unknown name (the nearest is suggested), missing file, other file type, or the same name as both CSV and TOML.
+        Unknown name (the nearest is suggested), missing file, other file type, or the same name as
+        both CSV and TOML.
     """
-    field = kind.removesuffix("s")
+    field, suffixes = kind.removesuffix("s"), suffixes or (".csv", ".toml")
     if not isinstance(name, (str, Path)) or not str(name).strip():
-        raise InputError(field, name, "must be a name or a path", "Shipped: " + ", ".join(data_names(kind)))
+        remedy = "Shipped: " + ", ".join(data_names(kind))
+        raise InputError(field, name, "must be a name or a path", remedy)
     path = Path(name)
     if path.suffix in (".csv", ".toml") or len(path.parts) > 1:
-        if path.suffix not in (".csv", ".toml"):
-            raise InputError(field, str(name), "file must end in .csv or .toml")
+        if path.suffix not in suffixes:
+            allowed = f"{field} files must end in {' or '.join(suffixes)}"
+            said = {(".toml",): f"{field} files are TOML"}.get(suffixes, allowed)
+            raise InputError(field, str(name), said)
         if not _is_file(path):
-            raise InputError(field, str(name), "no such file", f"Looked in {path.parent.resolve().name or 'the root'}")
+            remedy = f"Looked in {path.parent.resolve().name or 'the root'}"
+            raise InputError(field, str(name), "no such file", remedy)
         return path
-    found = [data_root() / kind / f"{name}{s}" for s in (".csv", ".toml") if name in data_names(kind, s)]
+    names = {suffix: data_names(kind, suffix) for suffix in suffixes}
+    found = [data_root() / kind / f"{name}{s}" for s in suffixes if name in names[s]]
     if len(found) > 1:
-        raise InputError(field, str(name), "exists as both CSV and TOML", "Remove one, or give the file's path")
+        remedy = "Remove one, or give the file's path"
+        raise InputError(field, str(name), "exists as both CSV and TOML", remedy)
     if not found:
-        raise InputError(field, str(name), f"no such {field}", did_you_mean(str(name), data_names(kind)))
+        near = did_you_mean(str(name), data_names(kind, *suffixes))
+        raise InputError(field, str(name), f"no such {field}", near)
     return found[0]
 
 
@@ -73,7 +91,9 @@ def read_toml(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (ValueError, RecursionError, OSError) as error:
-        raise InputError(path.name, None, f"is not a valid TOML file ({error})") from None
+        raise InputError(
+            "", None, f"is not a valid TOML file ({error})", source=path.name
+        ) from None
 
 
 def read_parameters(path: Path, expected: Mapping[str, str]) -> dict[str, float]:
@@ -94,24 +114,31 @@ def read_parameters(path: Path, expected: Mapping[str, str]) -> dict[str, float]
     Raises
     ------
     InputError
-        Missing, unknown or duplicated column or row, wrong unit, or a value that is not a finite number.
+        Missing, unknown or duplicated column or row, wrong unit, or a value that is not a finite
+        number.
     """
     columns = ["symbol", "name", "value", "unit", "source", "note"]
     where = path.name
     try:
         rows = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
     except (UnicodeDecodeError, csv.Error, OSError) as error:
-        raise InputError(where, None, f"is not a readable CSV file ({error})", "Save it as UTF-8 text") from None
+        raise InputError(
+            where, None, f"is not a readable CSV file ({error})", "Save it as UTF-8 text"
+        ) from None
     rows = [r for r in rows if r and any(cell.strip() for cell in r)]
     header = [h.strip() for h in rows[0]] if rows else []
     for column in header:
         if header.count(column) > 1:
             raise InputError(f"{where}: column {column}", None, "appears more than once")
         if column not in columns:
-            raise InputError(f"{where}: column {column}", None, "unknown column", did_you_mean(column, columns))
+            raise InputError(
+                f"{where}: column {column}", None, "unknown column", did_you_mean(column, columns)
+            )
     for column in columns:
         if column not in header:
-            raise InputError(f"{where}: column {column}", None, "is missing", "Columns: " + ",".join(columns))
+            raise InputError(
+                f"{where}: column {column}", None, "is missing", "Columns: " + ",".join(columns)
+            )
     result: dict[str, float] = {}
     for line, row in enumerate(rows[1:], start=2):
         if len(row) != len(header):
@@ -124,11 +151,15 @@ def read_parameters(path: Path, expected: Mapping[str, str]) -> dict[str, float]
         cells = dict(zip(header, (c.strip() for c in row), strict=True))
         name = cells["name"]
         if name not in expected:
-            raise InputError(f"{where}: row {name}", None, "unknown parameter", did_you_mean(name, expected))
+            raise InputError(
+                f"{where}: row {name}", None, "unknown parameter", did_you_mean(name, expected)
+            )
         if name in result:
             raise InputError(f"{where}: row {name}", None, "appears more than once")
         result[name] = quantity(f"{where}: {name}", cells["value"], cells["unit"], expected[name])
     missing = [name for name in expected if name not in result]
     if missing:
-        raise InputError(f"{where}: row {missing[0]}", None, "is missing", "Rows missing: " + ", ".join(missing))
+        raise InputError(
+            f"{where}: row {missing[0]}", None, "is missing", "Rows missing: " + ", ".join(missing)
+        )
     return result

@@ -1,0 +1,154 @@
+"""What is written from the types of tables: the JSON Schema, the starter and tables of pages."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from pydantic_core import PydanticUndefined
+
+from . import tables
+from .tabletypes import Table
+
+__all__ = ["rows", "schema", "starter", "with_tables"]
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON Schema of case files, for editors that complete and check them."""
+    found = _tidy(tables.CASE.model_json_schema(by_alias=True))
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **found}
+
+
+def _tidy(value: Any, properties: bool = False) -> Any:
+    """Leave out titles and null defaults, which TOML does not know."""
+    if isinstance(value, list):
+        return [_tidy(part) for part in value]
+    if not isinstance(value, dict):
+        return value
+    return {
+        k: _tidy(v, k in ("properties", "$defs") and not properties)
+        for k, v in value.items()
+        if properties
+        or not (k == "title" or (k == "default" and v is None) or k == "discriminator")
+    }
+
+
+# ---- tables of pages
+
+
+def rows(table: type[Table]) -> list[str]:
+    """Return the lines of a Markdown table: keys and their meaning, needed ones first marked."""
+    lines = ["| key | meaning |", "|---|---|"]
+    for name, f in table.model_fields.items():
+        if name in ("name", "source", "note"):
+            continue
+        said = (f.description or "").replace("|", "\\|")
+        if f.is_required():
+            said += " **Needed.**"
+        elif f.default not in (None, PydanticUndefined) and "efault" not in said:
+            said += f" Default {_toml(f.default)}."
+        lines.append(f"| `{f.alias or name}` | {said} |")
+    return lines
+
+
+_MARKED = re.compile(r"(<!-- table: ([\w. ]+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
+
+
+def with_tables(page: str) -> str:
+    """Return a page with its marked tables written anew.
+
+    A table stands between ``<!-- table: NAME -->`` and ``<!-- end -->``; NAME is one of `TABLES`.
+    """
+
+    def written(found: re.Match) -> str:
+        return f"{found[1]}{chr(10).join(rows(tables.TABLES[found[2]]))}\n{found[4]}"
+
+    return _MARKED.sub(written, page)
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    return f"`{value!r}`".replace("'", '"')
+
+
+# ---- the starter
+
+_HEAD = """\
+# A railbridge case: one train crosses one deck at one speed. All numbers are SI: m, kg, s, N.
+#
+#   railbridge run {name} --out results
+#
+# Lines that start with # are choices left out; take the mark away to use them. For an editor that
+# completes this file: railbridge schema > case.schema.json, and as the first line of this file
+#:schema ./case.schema.json
+"""
+_WAVE = '{ kind = "harmonic", amplitude = 1e-3, wavelength = 10.0 }'
+_EXAMPLES: dict[str, tuple[type[Table], dict[str, str]]] = {
+    "deck": (
+        tables.BEAM,
+        {
+            "length": "20.0",
+            "bending_stiffness_vertical": "2.0e10",
+            "mass": "9000.0",
+            "# bending_stiffness_lateral": "1.5e11",
+            "# torsional_stiffness": "3.0e10",
+            "# polar_inertia": "50e3",
+            "damping": "{ modal = 0.01 }",
+            "modes": "8",
+            "# tracks": "{ left = 2.0, right = -2.0 }",
+        },
+    ),
+    "train": (
+        tables.OF_ONE_KIND,
+        {"vehicle": '"xia2000"', "cars": "2", "# car_spacing": "22.5", "# track": "0.0"},
+    ),
+    "# train": (
+        tables.BARE,
+        {"# axles": "[0.0, 3.0, 11.0, 14.0]", "# loads": "[200e3, 200e3, 200e3, 200e3]"},
+    ),
+    "track": (tables.TRACK, {"vertical": _WAVE, "# lateral": _WAVE}),
+    "run": (
+        tables.RUN,
+        {
+            "speed": "40.0",
+            "# time_step": "1e-3",
+            "# loads": '"wheels"',
+            "# interaction": '"iterate"',
+            "# tolerance": "1e-8",
+            "# max_iterations": "50",
+            "# relaxation": "0.5",
+            "# lead_in": "300.0",
+            "# tail": "1.0",
+        },
+    ),
+    "output": (tables.OUTPUT, {"points": "[10.0]"}),
+}
+_NOTES = {
+    "deck": '# A deck of your own. Or: file = "viaduct36" for a shipped deck (railbridge list decks),\n'
+    '# or file = "my_deck.toml" for a file beside this one.',
+    "train": "# One vehicle several times. Or a mixed train, without vehicle:\n"
+    '# cars = ["power", { vehicle = "coach", count = 6 }, "power"]',
+    "# train": "# Or bare axle loads instead of vehicles:",
+    "track": "# Leave [track] out for perfect rails.",
+}
+
+
+def starter(name: str) -> str:
+    """Return a commented case file that runs as it is.
+
+    Parameters
+    ----------
+    name : str
+        Of the file.
+    """
+    lines = [_HEAD.format(name=name)]
+    for title, (table, examples) in _EXAMPLES.items():
+        if not title.startswith("#"):
+            lines.append(f"[{title}]")
+        lines += [_NOTES[title]] if title in _NOTES else []
+        for shown, value in examples.items():
+            said = table.model_fields[shown.removeprefix("# ")].description.replace("`", "")
+            lines += [f"{shown} = {value}".ljust(46) + f"# {said}"]
+        lines.append("")
+    return "\n".join(lines).replace("\n\n# Or bare", "\n# Or bare").rstrip() + "\n"

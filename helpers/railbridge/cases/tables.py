@@ -1,0 +1,493 @@
+"""Every table of case, deck and vehicle files, declared once.
+
+What the keys may be comes from the dataclasses that the tables become; here stands which keys a
+table has and which of them go together.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Union
+
+from pydantic import BeforeValidator, Discriminator, Tag, model_validator
+from typing_extensions import TypeAliasType
+
+from ..beams import Beam, Bearing, Section
+from ..beams.bearings import FIXITIES
+from ..boxes import Box, BoxMesh, Pads
+from ..boxes.pads import DIRECTIONS
+from ..decks import RATIO
+from ..errors import InputError, Range, choice, integer, keys
+from ..exchange import ModesTable
+from ..guideways import Guideway
+from ..settings import Options
+from ..tracks import Harmonic, Notch
+from ..tracks import Table as MeasuredTrack
+from ..trains import AxleTrain, Train
+from ..vehicles import FREEDOMS, Body, Spring, Vehicle
+from .tabletypes import (
+    Table,
+    anything,
+    boolean,
+    by_key,
+    by_value,
+    fields_of,
+    key,
+    list_of,
+    meanings,
+    named_numbers,
+    number,
+    numbers,
+    switched,
+    table,
+)
+
+__all__ = ["CASE", "DECK", "DECK_FILE", "OUTPUT", "RUN", "TABLES", "TRACK", "TRAIN", "VEHICLE"]
+
+
+def _either(*groups: tuple[str, ...]) -> dict[str, Any]:
+    """Return the JSON Schema of exactly one of several groups of keys."""
+    return {"oneOf": [{"required": list(group)} for group in groups]}
+
+
+def _words(allowed: tuple[str, ...], least: int = 0) -> Any:
+    """Return the type of several words, as a list or in one text."""
+
+    def check(value: Any) -> tuple[str, ...]:
+        words = value.split() if isinstance(value, str) else value
+        if not isinstance(words, (list, tuple)) or len(words) < least:
+            raise InputError("", value, "must list some of " + " ".join(allowed))
+        return tuple(choice("", word, allowed) for word in words)
+
+    schema = {"anyOf": [{"type": "string"}, {"type": "array", "items": {"enum": list(allowed)}}]}
+    return anything(schema, check)
+
+
+def _for_people() -> dict[str, Any]:
+    return {name: key(anything({}), "For people.") for name in ("name", "source", "note")}
+
+
+NAME = anything({"type": "string", "minLength": 1})
+"""A shipped name or a path; the shelf says what is wrong with it."""
+
+# ---- track
+
+_KINDS = ("none", "harmonic", "table")
+
+
+def _kind(name: str) -> dict[str, Any]:
+    check = anything({"const": name}, lambda value: choice("", value, _KINDS))
+    return {"kind": key(check, f'"{name}".', required=True)}
+
+
+LEVEL = table("Level", "A perfect rail.", **_kind("none"))
+HARMONIC = table(
+    "Harmonic",
+    "A wave: r = amplitude sin(2 pi x / wavelength + phase).",
+    schema=_either(("wavelength",), ("length", "half_waves")),
+    **_kind("harmonic"),
+    **fields_of(Harmonic),
+)
+MEASURED = table(
+    "Measured", "A measured irregularity.", **_kind("table"), **fields_of(MeasuredTrack)
+)
+IRREGULARITY = switched(
+    lambda value: by_value(value, "kind", _KINDS, otherwise="harmonic"),
+    {"none": LEVEL, "harmonic": HARMONIC, "table": MEASURED},
+)
+IRREGULARITIES = TypeAliasType(
+    "IRREGULARITIES",
+    Annotated[
+        Union[  # noqa: UP007 - a name in quotes cannot be joined by |
+            Annotated[IRREGULARITY, Tag("~one")],
+            Annotated[list["IRREGULARITIES"], Tag("~several")],
+        ],
+        Discriminator(lambda value: "~several" if isinstance(value, (list, tuple)) else "~one"),
+    ],
+)
+_ONE_OR_MORE = "One irregularity, or a list of them on top of each other."
+RAILS = table(
+    "Rails",
+    "Rails that differ.",
+    schema={"minProperties": 1},
+    left=key(IRREGULARITIES, _ONE_OR_MORE),
+    right=key(IRREGULARITIES, _ONE_OR_MORE),
+)
+_DIRECTION = switched(
+    lambda value: by_key(value, ("left", "right"), otherwise="both"),
+    {"left": RAILS, "right": RAILS, "both": IRREGULARITIES},
+)
+_EACH = " One irregularity, a list of them (added up), or { left, right } for rails that differ."
+TRACK = table(
+    "Track",
+    "Irregularity of the rails; perfect where left out.",
+    vertical=key(_DIRECTION, "Up positive." + _EACH),
+    lateral=key(_DIRECTION, "Left positive." + _EACH),
+)
+
+# ---- vehicle and train
+
+
+BODY = table(
+    "Body",
+    "A rigid body.",
+    **fields_of(Body, optional=("inertia",), required=("freedoms",), freedoms=_words(FREEDOMS, 1)),
+)
+SPRING = table("Spring", "A spring and damper.", **fields_of(Spring, optional=("damping",)))
+VEHICLE = table(
+    "Vehicle",
+    "A linear vehicle: bodies on springs.",
+    **_for_people(),
+    **fields_of(Vehicle, only=("length", "static_wheelset_mass")),
+    body=key(list_of(BODY, "body"), "Car body, bogies.", required=True),
+    spring=key(list_of(SPRING, "spring"), "Suspension and contacts with the rail.", required=True),
+)
+
+
+def _pairs(value: Any) -> Any:
+    return tuple(map(tuple, value)) if _is_pairs(value) else value
+
+
+def _is_pairs(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(pair, list) for pair in value)
+
+
+_WHEELS = {
+    "type": "array", "minItems": 1,
+    "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "integer", "minimum": 1}},
+}  # fmt: skip
+NOTCH = table(
+    "Notch",
+    "A flat spot that meets the rail once a turn (Eq. 2).",
+    **fields_of(Notch, wheels=anything(_WHEELS, _pairs)),
+)
+_CARS = Range(least=1, most=1000, whole=True)
+SEVERAL = table(
+    "Several",
+    "Some cars of one kind.",
+    vehicle=key(NAME, "A shipped vehicle or a file.", required=True),
+    count=key(number(**vars(_CARS)), "How many.", 1),
+)
+_OWN_TRACK = key(
+    anything({"anyOf": [{"type": "number"}, {"type": "string"}]}),
+    "m left of the deck axis, or the name of a track of the deck.",
+    0.0,
+)
+_ROLLING = {
+    **fields_of(Train, only=("car_spacing",)),
+    "track": _OWN_TRACK,
+    "notch": key(list_of(NOTCH, "train.notch"), "Flat spots of wheels: [[train.notch]]."),
+}
+OF_ONE_KIND = table(
+    "Cars",
+    "One vehicle several times.",
+    vehicle=key(
+        NAME, "A shipped vehicle (xia2000), or a .csv or .toml file beside this one.", required=True
+    ),
+    cars=key(number(**vars(_CARS)), "Number of cars.", 1),
+    **_ROLLING,
+)
+MIXED = table(
+    "Mixed",
+    "Vehicles from front to back.",
+    cars=key(
+        list[
+            switched(
+                lambda value: "name" if isinstance(value, str) else "several",
+                {"name": NAME, "several": SEVERAL},
+            )
+        ],
+        'Front to back: names of vehicles, or { vehicle = "coach", count = 6 }.',
+        required=True,
+    ),
+    **_ROLLING,
+)
+BARE = table(
+    "Axles",
+    "Bare axle loads, without suspension.",
+    **fields_of(AxleTrain),
+    track=_OWN_TRACK,
+)
+
+
+def _kind_of_train(value: Any) -> str:
+    if isinstance(value, dict) and ("axles" in value or "loads" in value):
+        return "bare"
+    return "mixed" if isinstance(value, dict) and isinstance(value.get("cars"), list) else "cars"
+
+
+def _refuse_several_trains(value: Any) -> Any:
+    if isinstance(value, list):
+        allowed = "several trains on one deck are not supported: they feel each other through it"
+        raise InputError("", value, allowed, "Give one [train]")
+    if isinstance(value, dict) and isinstance(value.get("cars"), list) and "vehicle" in value:
+        allowed = "give either vehicle with a number of cars, or a list of cars"
+        raise InputError("vehicle", value["vehicle"], allowed)
+    return value
+
+
+TRAIN = Annotated[
+    switched(_kind_of_train, {"cars": OF_ONE_KIND, "mixed": MIXED, "bare": BARE}),
+    BeforeValidator(_refuse_several_trains),
+]
+
+# ---- deck
+
+MODAL = table(
+    "Modal", "The same ratio for every mode.",
+    modal=key(number(**vars(RATIO)), "Share of critical of every mode.", required=True),
+)  # fmt: skip
+RAYLEIGH = table(
+    "Rayleigh", "One ratio at two frequencies.",
+    ratio=key(number(**vars(RATIO)), "Share of critical at both frequencies.", required=True),
+    frequencies_hz=key(numbers(2, above=0.0, unit="Hz"), "The two frequencies, Hz.", required=True),
+)  # fmt: skip
+DAMPING = switched(
+    lambda value: by_key(value, ("modal",), otherwise="rayleigh"),
+    {"modal": MODAL, "rayleigh": RAYLEIGH},
+)
+
+
+class _Holds(Table):
+    """A bearing that holds something."""
+
+    @model_validator(mode="after")
+    def _refuse_nothing(self):
+        if not getattr(self, "fixed", None) and not getattr(self, "stiffness", None):
+            remedy = "Say what the bearing holds, here or by stiffness"
+            raise InputError("fixed", None, "is missing", remedy)
+        return self
+
+
+_HOLDS = {"anyOf": [{"required": ["fixed"]}, {"required": ["stiffness"]}]}
+BEARING = table(
+    "Bearing",
+    "A bearing under the deck.",
+    base=_Holds,
+    schema=_HOLDS,
+    **fields_of(
+        Bearing, fixed=_words(FIXITIES), stiffness=named_numbers(FIXITIES, above=0.0, most=1e16)
+    ),
+)
+PADS = table(
+    "Pads",
+    "A bearing line of a box: pads under its webs.",
+    base=_Holds,
+    schema=_HOLDS,
+    **fields_of(
+        Pads, fixed=_words(DIRECTIONS), stiffness=named_numbers(DIRECTIONS, above=0.0, most=1e14)
+    ),
+)
+SECTION = table("Section", "Section and material.", **fields_of(Section))
+
+_CARRYING = {
+    "tracks": key(named_numbers(), "Named tracks: m left of the deck axis, { left = 2.4 }."),
+    "width": key(number(above=0.0, unit="m"), "m, on which the wheels must stand."),
+    "track_height": key(
+        number(least=-50.0, most=50.0, unit="m"), meanings(Guideway)["track_height"], 0.0
+    ),
+}
+_SPANS = {
+    "length": key(number(above=0.0, unit="m"), "One span, m. Or spans."),
+    "spans": key(numbers(above=0.0, unit="m"), "Several spans, m. Or length."),
+}
+_MODES = key(
+    number(least=1, whole=True), "How many modes are kept, the lowest that loads can excite.", 20
+)
+_DAMPING = "Rayleigh { ratio, frequencies_hz }, or { modal }, the same ratio for every mode."
+_BEARINGS = "Bearings; default: y, z and roll at both ends of every span, x at the first."
+
+
+class _Spans(Table):
+    """A deck of one span or several."""
+
+    @model_validator(mode="after")
+    def _refuse_both(self):
+        if self.has("length") == self.has("spans"):
+            raise InputError("length", self.length, "give either length or spans")
+        return self
+
+    @property
+    def all_spans(self) -> tuple[float, ...]:
+        """m."""
+        return self.spans if self.has("spans") else (self.length,)
+
+
+STIFFNESSES = tuple(
+    name
+    for name in meanings(Beam)
+    if name.endswith(("_stiffness", "stiffness_vertical", "stiffness_lateral"))
+    or name.startswith(("polar_inertia", "rotary_inertia_"))
+)
+
+
+class _BeamDeck(_Spans):
+    """A beam, from a section or from stiffnesses."""
+
+    @model_validator(mode="after")
+    def _refuse_mixture(self):
+        if self.has("section") == self.has("mass"):
+            allowed = "give either a section or stiffnesses with mass, never both"
+            raise InputError("section", None, allowed)
+        if self.has("section"):
+            for name in STIFFNESSES:
+                if self.has(name):
+                    allowed = "a section is given too, never both"
+                    raise InputError(name, getattr(self, name), allowed, "Remove one")
+            return self
+        keys("", self.given, self.given, ["bending_stiffness_vertical"])
+        if self.rotary_inertia:
+            remedy = "Give rotary_inertia_vertical and rotary_inertia_lateral, kg m"
+            allowed = "follows from a section only"
+            raise InputError("rotary_inertia", self.rotary_inertia, allowed, remedy)
+        return self
+
+
+BEAM = table(
+    "BeamDeck",
+    "A deck of beam elements, with stiffnesses and mass or with a section.",
+    base=_BeamDeck,
+    schema={
+        "allOf": [
+            _either(("length",), ("spans",)),
+            _either(("section",), ("mass", "bending_stiffness_vertical")),
+        ]
+    },
+    **_SPANS,
+    **fields_of(Beam, only=("continuous",)),
+    section=key(SECTION, "Instead of stiffnesses and mass: [deck.section]."),
+    **fields_of(Beam, only=("mass", *STIFFNESSES), optional=("mass", *STIFFNESSES)),
+    rotary_inertia=key(
+        boolean(), "With a section: its own rotary inertias, density times second moments.", False
+    ),
+    damping=key(DAMPING, _DAMPING, required=True),
+    modes=_MODES,
+    **fields_of(Beam, only=("elements", "centroid_height")),
+    bearing=key(list_of(BEARING, "bearing"), _BEARINGS),
+    **_CARRYING,
+    **_for_people(),
+)
+
+DIMENSIONS = tuple(n for n in fields_of(Box, omit=("name", "spans", "bearings", "tracks")))
+BOX = table(
+    "Box",
+    "The dimensions of a single-cell box girder (extra fem).",
+    **fields_of(Box, only=DIMENSIONS),
+)
+MESH = table("Mesh", "Elements of the shell.", **fields_of(BoxMesh))
+
+
+class _BoxDeck(_Spans):
+    """A box as a beam or as a shell."""
+
+    @model_validator(mode="after")
+    def _refuse_mixture(self):
+        shell = self.model == "shell"
+        for name in ("shear", "rotary_inertia") if shell else ():
+            if self.has(name):
+                allowed = "is a switch of the beam model"
+                raise InputError(name, getattr(self, name), allowed, "Remove it, a shell has both")
+        if self.has("mesh") and not shell:
+            remedy = 'Remove it, or set model = "shell"'
+            raise InputError("mesh", None, "belongs to the shell model", remedy)
+        return self
+
+
+BOX_DECK = table(
+    "BoxDeck",
+    "A box girder from its dimensions, as a beam or as a shell.",
+    base=_BoxDeck,
+    schema=_either(("length",), ("spans",)),
+    **_SPANS,
+    box=key(BOX, "Dimensions of the section: [deck.box].", required=True),
+    model=key(
+        anything({"enum": ["beam", "shell"]}, lambda value: choice("", value, ("beam", "shell"))),
+        "Beam with the section's properties, or shell, of which only modes are known.",
+        "beam",
+    ),
+    mesh=key(MESH, "Elements of the shell."),
+    shear=key(boolean(), "Whether the beam gives way in shear.", True),
+    rotary_inertia=key(boolean(), "Whether turning sections of the beam have inertia.", True),
+    damping=key(DAMPING, _DAMPING, required=True),
+    modes=_MODES,
+    bearing=key(list_of(PADS, "bearing"), "Pads; default: y and z at every line, x at the first."),
+    tracks=_CARRYING["tracks"],
+    **_for_people(),
+)
+MODES = table(
+    "Modes",
+    "Modes of another finite-element program; see docs/exchange.md.",
+    **fields_of(ModesTable),
+)
+MODAL_DECK = table(
+    "ModalDeck",
+    "A deck of which another program knows the modes.",
+    modes=key(MODES, "Where the modes stand.", required=True),
+    damping=key(DAMPING, _DAMPING + " Default: that of the file."),
+    **_CARRYING,
+    **_for_people(),
+)
+
+
+def _kind_of_deck(value: Any) -> str:
+    if not isinstance(value, dict):
+        return "beam"
+    if isinstance(value.get("modes"), dict):
+        return "modes"
+    return "box" if "box" in value else "beam"
+
+
+_MAKERS = {"beam": BEAM, "box": BOX_DECK, "modes": MODAL_DECK}
+DECK_FILE = switched(_kind_of_deck, _MAKERS)
+"""The content of a deck file."""
+SHIPPED = table(
+    "DeckFile",
+    "A deck file; modes and damping may replace its own.",
+    unknown_key=(
+        "cannot stand beside deck.file",
+        "Beside a file only modes and damping may stand; they replace its own",
+    ),
+    file=key(NAME, "A shipped deck (viaduct36), or a .toml file beside this one.", required=True),
+    modes=key(number(least=1, whole=True), "How many modes, instead of the file's own number."),
+    damping=key(DAMPING, "Instead of the file's own. " + _DAMPING),
+)
+DECK = switched(
+    lambda value: by_key(value, ("file",), otherwise=_kind_of_deck(value)),
+    {"file": SHIPPED, **_MAKERS},
+)
+
+# ---- run, output, the whole
+
+RUN = table("Run", "How the crossing is computed.", **fields_of(Options, omit=("track_offset",)))
+
+
+def _points(value: Any) -> Any:
+    if isinstance(value, (list, tuple)):
+        integer("number of points", len(value), least=1, most=100)
+    return value
+
+
+OUTPUT = table(
+    "Output",
+    "What is told of the crossing.",
+    points=key(
+        Annotated[numbers(least=0.0, unit="m"), BeforeValidator(_points)],
+        "m along the deck; default mid-length.",
+    ),
+)
+CASE = table(
+    "Case",
+    "One train crosses one deck at one speed. All numbers are SI: m, kg, s, N.",
+    deck=key(DECK, "A deck file, or a deck of your own.", required=True),
+    train=key(TRAIN, "Vehicles with suspension, or bare axle loads.", required=True),
+    track=key(TRACK, "Irregularity of the rails; perfect where left out."),
+    run=key(RUN, "How the crossing is computed.", required=True),
+    output=key(OUTPUT, "What is told of it."),
+)
+TABLES = {
+    "deck": BEAM, "deck.file": SHIPPED, "deck.section": SECTION, "deck.bearing": BEARING, "deck.box": BOX, "box deck": BOX_DECK,
+    "box bearing": PADS, "deck.mesh": MESH, "deck.modes": MODES, "modal deck": MODAL_DECK, "deck.damping": RAYLEIGH,
+    "modal damping": MODAL, "train": OF_ONE_KIND, "mixed train": MIXED, "train.cars": SEVERAL, "bare train": BARE,
+    "train.notch": NOTCH, "track": TRACK, "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "none": LEVEL,
+    "run": RUN, "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
+}  # fmt: skip
+"""Every table by what the pages call it."""
