@@ -13,8 +13,9 @@ The ten lines everything else supports::
 
 Everything is SI inside: m, kg, s, N. See the README for the conventions.
 
-The modules beside this file are the spine: what a course reads, in the order of the paper. Every folder is a room with a door,
-its ``__init__``; what stands in a room is loaded when it is first asked for.
+The modules beside this file are the spine: what a course reads, in the order of the paper. Every
+folder is a room with a door, its ``__init__``; what stands in a room is loaded when it is first
+asked for.
 """
 
 from importlib import import_module as _import_module
@@ -26,28 +27,39 @@ from .errors import InputError
 from .results import Crossing
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .tracks import FadeIn, Harmonic, Level, Notch, Rails, Table, Track
-from .trains import AxleTrain, Train, steady_forces
-from .vehicles import Body, Spring, Vehicle, planar_car, sprung_mass, two_bogie_car
+from .trains import AxleTrain, Passage, Train, steady_forces
+from .vehicles import Body, Spring, Vehicle
 
 __version__ = "0.1.0"
 
 _ROOMS = {
     "boxes": ("Box", "BoxMesh", "Pads"),
-    "cases": ("Case", "box", "case", "data_root", "deck", "deck_from_table", "summarize", "vehicle"),
+    "cases": (
+        "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table", "planar_car",
+        "sprung_mass", "summarize", "two_bogie_car", "vehicle",
+    ),
     "validation": ("compared",),
-}
+}  # fmt: skip
 """Names that a room offers here, too."""
 _MODULES = {
-    "exchange": "exchange", "identification": "validation.identification", "panels": "panels", "paper": "validation.paper",
-    "plots": "plots", "staggered": "exchange.staggered", "validation": "validation", "verification": "validation.verification",
-}  # fmt: skip
+    "boxes": "boxes",
+    "exchange": "exchange",
+    "identification": "validation.identification",
+    "panels": "panels",
+    "paper": "validation.paper",
+    "plots": "plots",
+    "staggered": "exchange.staggered",
+    "validation": "validation",
+    "verification": "validation.verification",
+}
 
 __all__ = [
-    "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "Case", "Crossing", "Deck", "FadeIn", "Harmonic", "History",
-    "InputError", "Level", "NotConvergedError", "Notch", "Pads", "Rails", "Spectrum", "Spring", "Table", "Track", "Train",
-    "Vehicle", "amplitude_spectrum", "box", "case", "compared", "cross", "data_root", "deck", "deck_from_table",
-    "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio", "sprung_mass", "steady_forces", "summarize",
-    "two_bogie_car", "vehicle",
+    "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "Case", "Crossing", "Deck", "FadeIn",
+    "Harmonic", "History", "InputError", "Level", "NotConvergedError", "Notch", "Pads", "Passage",
+    "Rails", "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box",
+    "car_parameters", "case", "compared", "cross", "data_root", "deck", "deck_from_table",
+    "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio", "sprung_mass", "steady_forces",
+    "summarize", "two_bogie_car", "vehicle",
 ]  # fmt: skip
 
 

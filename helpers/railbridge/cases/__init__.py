@@ -1,8 +1,12 @@
-"""Cases as data: files and tables that become trains, decks and tracks, a crossing in numbers, and the command."""
+"""Cases as data: files and tables that become trains, decks and tracks, and the command."""
 
+from .cars import planar_car, sprung_mass, two_bogie_car
 from .definition import Case, case
-from .objects import box, deck, deck_from_table, vehicle
+from .objects import box, car_parameters, deck, deck_from_table, vehicle
 from .shelf import data_root
 from .summary import summarize
 
-__all__ = ["Case", "box", "case", "data_root", "deck", "deck_from_table", "summarize", "vehicle"]
+__all__ = [
+    "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table", "planar_car",
+    "sprung_mass", "summarize", "two_bogie_car", "vehicle",
+]  # fmt: skip

@@ -21,8 +21,9 @@ from ..exchange import ModesTable
 from ..tracks import Harmonic, Irregularity, Level, Notch, Rails, Track
 from ..tracks import Table as MeasuredTrack
 from ..trains import AnyTrain, AxleTrain, Train
-from ..vehicles import CAR_PARAMETERS, Body, Spring, Vehicle, two_bogie_car
+from ..vehicles import Body, Spring, Vehicle
 from . import shelf, tables
+from .cars import CAR_PARAMETERS, two_bogie_car
 from .tabletypes import Table, checked
 
 __all__ = [
