@@ -11,7 +11,7 @@ BIN := .venv/bin
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help env lab app test test-browser reproduce identify notebooks site lint format bench latency lock clean
+.PHONY: help env lab app test test-browser reproduce identify notebooks site pages lint format bench latency lock clean
 
 help:  ## list these targets
 	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 22
@@ -42,6 +42,9 @@ notebooks: env  ## execute all notebooks and store their outputs (the only way o
 
 site: env  ## build a static site of all notebooks in build/site, readable without network
 	$(BIN)/python tools/site.py $(ARGS)
+
+pages: env  ## write the tables of docs/case.md that come from the types
+	$(BIN)/python tools/pages.py $(ARGS)
 
 lint: env  ## check style, formatting and the layers of the package
 	$(BIN)/python tools/lint.py $(ARGS)

@@ -7,10 +7,12 @@ import nbformat
 import pytest
 import yaml
 
+import railbridge as rb
+
 ROOT = Path(__file__).resolve().parents[2]
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 TARGETS = dict(re.findall(r"^([a-z-]+):[^#\n]*## .*\n((?:\t.*\n)*)", MAKEFILE, re.MULTILINE))
-DOCUMENTS = ("README.md", "CONTRIBUTING.md")
+DOCUMENTS = ("README.md", "CONTRIBUTING.md", "docs/map.md", "docs/case.md")
 
 
 def rows_of_commands(name):
@@ -37,7 +39,8 @@ def links(name):
 
 @pytest.mark.parametrize("name", DOCUMENTS)
 def test_files_that_a_document_links_to_exist(name):
-    assert [target for target in links(name) if not (ROOT / target).exists()] == []
+    folder = (ROOT / name).parent
+    assert [target for target in links(name) if not (folder / target).exists()] == []
 
 
 def test_readme_lists_every_notebook_with_its_title():
@@ -53,3 +56,26 @@ def test_citation_can_be_read():
     assert citation["references"][0]["year"] == 2016
     version = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(encoding="utf-8"), re.MULTILINE)
     assert str(citation["version"]) == version.group(1)
+
+
+def map_rows():
+    """[(question, call, figure, notebook, file)] of docs/map.md."""
+    lines = (ROOT / "docs" / "map.md").read_text(encoding="utf-8").splitlines()
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
+    return [tuple(row) for row in rows[2:]]
+
+
+@pytest.mark.parametrize("row", map_rows(), ids=lambda row: row[1].strip("`"))
+def test_the_map_names_what_there_is(row):
+    question, call, figure, notebook, file = row
+    assert question[0].isupper() or question.startswith("...")
+    thing = rb
+    for name in call.strip("`").split(".")[1:]:
+        thing = getattr(thing, name)
+    path = re.search(r"\((.*)\)", notebook).group(1)
+    page = nbformat.read(ROOT / "docs" / path, as_version=4)
+    assert any(f"**Figure {figure}.**" in cell.source for cell in page.cells), figure
+    module = ROOT / "helpers" / "railbridge" / file.strip("`")
+    last = call.strip("`").rpartition(".")[2]
+    declared = last == "Case" or re.search(rf"^\s*(def|class) {last}\b", module.read_text(encoding="utf-8"), re.M)
+    assert declared, f"{last} is not in {file}"
