@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 from railbridge.cases import shelf
-from railbridge.validation import fitting, identification
+from railbridge.validation import candidates, fitting
 
 DECK = """\
 # The deck of the paper's case study as ONE BOX THAT FITS: IDENTIFIED, NOT KNOWN. Figure 6 (section and properties) is missing.
@@ -57,7 +57,7 @@ _WRITTEN = (
 
 def deck_file(best: dict) -> str:
     """Return the deck file of the best box."""
-    box = identification.box_of(best["values"], best["inner_diaphragms"])
+    box = candidates.box_of(best["values"], best["inner_diaphragms"])
     lines = [f"{name} = {getattr(box, name)!r}" for name in _WRITTEN]
     first = box.bearings[0]
     return DECK.format(name=box.name, dimensions="\n".join(lines) + "\n", spring=first.stiffness["x"], drop=first.drop)
@@ -76,8 +76,8 @@ def main() -> None:
 
     result = fitting.identify(options.starts, options.seed, progress=progress)
     for folder, name, content in (
-        ("identification", f"{identification.SINGLE}.json", json.dumps(result, indent=1) + "\n"),
-        ("decks", f"{identification.SINGLE}.toml", deck_file(result["best"])),
+        ("identification", f"{candidates.DECK_NAME}.json", json.dumps(result, indent=1) + "\n"),
+        ("decks", f"{candidates.DECK_NAME}.toml", deck_file(result["best"])),
     ):
         (options.to / folder).mkdir(parents=True, exist_ok=True)
         (options.to / folder / name).write_text(content, encoding="utf-8")

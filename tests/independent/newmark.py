@@ -1,21 +1,34 @@
-"""A finite-element program of its own: a simple beam of cubic elements and a plane car, stepped together by Newmark's method.
+"""A finite-element program of its own: a simple beam and a plane car, stepped by Newmark's method.
 
-It takes a car's matrices and a beam's numbers, never the package's own deck, modes or filters. At every step the springs at the
-contacts join both systems at the wheels' places, so stiffness and damping change with time:
+The beam has cubic elements. It takes a car's matrices and a beam's numbers, never the package's own
+deck, modes or filters. At every step the springs at the contacts join both systems at the wheels'
+places, so stiffness and damping change with time:
 
     u_i = N(x_i) d + r,   u_i' = N d' + v (N' d + r'),   F_i = k (G z - u) + c (G z' - u') - W.
 """
 
 import numpy as np
 
-STIFFNESS = np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]], dtype=float)
+STIFFNESS = np.array(
+    [[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]], dtype=float
+)
 MASS = np.array([[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]]) / 420
 
 
 def hermite(s, h):
     """Cubic shapes of an element at s = 0..1, their slopes and curvatures."""
-    value = [1 - 3 * s**2 + 2 * s**3, h * (s - 2 * s**2 + s**3), 3 * s**2 - 2 * s**3, h * (s**3 - s**2)]
-    slope = [(6 * s**2 - 6 * s) / h, 1 - 4 * s + 3 * s**2, (6 * s - 6 * s**2) / h, 3 * s**2 - 2 * s]
+    value = [
+        1 - 3 * s**2 + 2 * s**3,
+        h * (s - 2 * s**2 + s**3),
+        3 * s**2 - 2 * s**3,
+        h * (s**3 - s**2),
+    ]
+    slope = [
+        (6 * s**2 - 6 * s) / h,
+        1 - 4 * s + 3 * s**2,
+        (6 * s - 6 * s**2) / h,
+        3 * s**2 - 2 * s,
+    ]
     return np.array(value), np.array(slope)
 
 
@@ -42,9 +55,10 @@ class Elements:
 
 
 def crossing(car, beam, speed, wave, elements=20, step=2.5e-4, tail=0.2):
-    """Time, mid-span displacement, mid-span moment and axle forces of a plane car on a beam (see `references.Plane`).
+    """Time, mid-span displacement, mid-span moment and axle forces of a plane car on a beam.
 
-    The moment is the end moment of the element left of mid-span, its own loads and inertia taken off.
+    The car is a `references.PlaneVehicle`. The moment is the end moment of the element left of
+    mid-span, its own loads and inertia taken off.
     """
     fem = Elements(beam.length, beam.mass, beam.bending, elements)
     k, m = (a[np.ix_(fem.free, fem.free)] for a in (fem.stiffness, fem.mass))
@@ -75,7 +89,8 @@ def crossing(car, beam, speed, wave, elements=20, step=2.5e-4, tail=0.2):
                 join[i, f:], climb[i, f:] = -shape, -speed * slope
                 load[f:] -= car.static[i] * shape
             if x >= 0.0:
-                r[i], rate[i] = amplitude * np.sin(number * x), speed * amplitude * number * np.cos(number * x)
+                r[i] = amplitude * np.sin(number * x)
+                rate[i] = speed * amplitude * number * np.cos(number * x)
         stiffness += join.T @ (car.spring * join + car.damper * climb)
         damping += car.damper * join.T @ join
         load += join.T @ (car.spring * r + car.damper * rate)
@@ -86,18 +101,24 @@ def crossing(car, beam, speed, wave, elements=20, step=2.5e-4, tail=0.2):
         ddy = np.linalg.solve(effective, load - damping @ rate_predicted - stiffness @ predicted)
         y, dy = predicted + step**2 / 4 * ddy, rate_predicted + step / 2 * ddy
         middle[n] = centre @ y[f:]
-        forces[:, n] = car.spring * (join @ y - r) + car.damper * (join @ dy + climb @ y - rate) - car.static
-        moment[n] = _moment(fem, half, y[f:], ddy[f:] + beam.alpha * dy[f:], forces[:, n], places, beam)
+        dashpots = car.damper * (join @ dy + climb @ y - rate)
+        forces[:, n] = car.spring * (join @ y - r) + dashpots - car.static
+        inertia = ddy[f:] + beam.alpha * dy[f:]
+        moment[n] = _moment(fem, half, y[f:], inertia, forces[:, n], places, beam)
     return time, middle, moment, forces
 
 
 def _moment(fem, half, d, inertia, forces, places, beam):
-    """M_y at the node `half`: the elastic end moment of the element to its left, with its own loads and inertia taken off."""
+    """M_y at the node `half`: the elastic end moment of the element to its left.
+
+    The element's own loads and inertia are taken off.
+    """
     whole, moving = np.zeros((2, 2 * (fem.count + 1)))
     whole[fem.free], moving[fem.free] = d, inertia
     here = np.arange(2 * half - 2, 2 * half + 2)
     scale = np.outer([1, fem.h] * 2, [1, fem.h] * 2)
-    end = fem.bending / fem.h**3 * (STIFFNESS * scale) @ whole[here] + beam.mass * fem.h * (MASS * scale) @ moving[here]
+    elastic = fem.bending / fem.h**3 * (STIFFNESS * scale) @ whole[here]
+    end = elastic + beam.mass * fem.h * (MASS * scale) @ moving[here]
     for force, x in zip(forces, places, strict=True):
         s = x / fem.h - (half - 1)
         if 0.0 <= s <= 1.0:

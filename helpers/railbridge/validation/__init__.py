@@ -1,5 +1,10 @@
-"""What the suite is held against: the paper's printed numbers, published cases, closed forms, the fit of Figure 6."""
+"""What the suite is held against: theirs, ours, difference, why.
 
-from .checks import compared
+The paper's printed numbers (`published`, `scenarios`, `paper`), published cases and closed forms
+(`references`, `crossings`, `verification`), the fit of the missing Figure 6 (`identification`,
+`fitting`), and one line that compares two numbers (`compared`).
+"""
+
+from .rows import compared
 
 __all__ = ["compared"]

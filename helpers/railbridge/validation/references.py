@@ -1,10 +1,11 @@
-r"""Answers that do not come from this package: closed forms, and differential equations written down anew.
+r"""Answers that do not come from this package: closed forms, and equations written down anew.
 
-They share nothing with the fast path but the parameter files, so `verification` and the tests can hold the package to them.
+They share the parameter file of the car with the package and nothing else, so `verification` and
+the tests can hold the package to them.
 
 Throughout, a simple beam of length L, mass m per metre and stiffness E I has the frequencies
-``omega_n = (n pi / L)^2 sqrt(E I / m)``, the critical speed ``v_1 = pi / L sqrt(E I / m) = 2 f_1 L``, and the speed ratio
-``alpha = v / v_1``.
+``omega_n = (n pi / L)^2 sqrt(E I / m)``, the critical speed
+``v_1 = pi / L sqrt(E I / m) = 2 f_1 L`` and the speed ratio ``alpha = v / v_1``.
 """
 
 from __future__ import annotations
@@ -15,12 +16,18 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ..beams.beam import Beam
 from ..cases import shelf
-from ..decks import Deck
-from ..units import G
 
-__all__ = ["FORCE", "Plane", "SimpleBeam", "car_in_plane", "coupled", "force_beam", "moving_force", "yang_yau"]
+__all__ = [
+    "FORCE", "GRAVITY", "PlaneVehicle", "SimpleBeam", "car_in_plane", "coupled_solution",
+    "force_beam", "moving_force", "yang_yau",
+]  # fmt: skip
+
+FORCE = 200e3
+"""The moving force, N."""
+
+GRAVITY = 9.81
+"""m/s2."""
 
 
 @dataclass(frozen=True)
@@ -54,35 +61,30 @@ class SimpleBeam:
         """Return the mid-span deflection under a force (N, down) at mid-span, m."""
         return force * self.length**3 / (48 * self.bending)
 
-    def deck(self, modes: int, damping: tuple[float, float] | float | None = None, elements: int | None = None) -> Deck:
-        """Return the same beam as the package makes it."""
-        beam = Beam("closed form", (self.length,), self.mass, self.bending, elements=elements)
-        return beam.deck(modes, (self.alpha, self.beta) if damping is None else damping)
-
 
 def force_beam() -> SimpleBeam:
-    """Return the beam of the moving force: 40 m, 10 t/m, first frequency 2 Hz, so that v_1 = 160 m/s."""
+    """Return the beam of the moving force: 40 m, 10 t/m, first frequency 2 Hz, v_1 = 160 m/s."""
     length, mass, frequency = 40.0, 10e3, 2.0
     return SimpleBeam(length, mass, mass * (2 * np.pi * frequency * length**2 / np.pi**2) ** 2)
-
-
-FORCE = 200e3
-"""The moving force, N."""
 
 
 def moving_force(
     beam: SimpleBeam, speed: float, time: np.ndarray, ratio: float = 0.0, terms: int = 100
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    r"""Return A_n, its velocity and acceleration in ``w = sum A_n sin(n pi x / L)`` under a force P that crosses.
+    r"""Return A_n, its velocity and acceleration under a force P that crosses the beam.
 
-    Derivation (Fryba, Vibration of Solids and Structures under Moving Loads, chapter 1). Each term obeys
+    A_n are the terms of the deflection ``w = sum A_n sin(n pi x / L)``. Derivation (Fryba,
+    Vibration of Solids and Structures under Moving Loads, chapter 1): each term obeys
 
-        A_n'' + 2 zeta omega_n A_n' + omega_n^2 A_n = -(2 P / m L) sin(n Omega t),    Omega = pi v / L,
+        A_n'' + 2 zeta omega_n A_n' + omega_n^2 A_n = -(2 P / m L) sin(n Omega t)
 
-    whose particular solution is ``Im(H exp(i n Omega t))`` with ``H = -(2 P / m L) / (omega_n^2 - n^2 Omega^2 + 2 i zeta
-    omega_n n Omega)``; the free vibration that brings the beam to rest at t = 0 is added to it. Without damping and at
-    n Omega = omega_n the sum tends to ``-(P / m L omega^2) (sin omega t - omega t cos omega t)``. From t = L / v on the
-    vibration is free.
+    with ``Omega = pi v / L``, whose particular solution is ``Im(H exp(i n Omega t))`` with
+
+        H = -(2 P / m L) / (omega_n^2 - n^2 Omega^2 + 2 i zeta omega_n n Omega);
+
+    the free vibration that brings the beam to rest at t = 0 is added to it. Without damping and at
+    n Omega = omega_n the sum tends to ``-(P / m L omega^2) (sin omega t - omega t cos omega t)``.
+    From t = L / v on the vibration is free.
 
     Parameters
     ----------
@@ -129,14 +131,15 @@ def moving_force(
     swing, fade = np.exp(1j * wd * after), np.exp(-decay * after)
     second = (last_rate + decay * last) / wd
     free = fade * (last * swing.real + second * swing.imag)
-    free_rate = fade * ((wd * second - decay * last) * swing.real - (wd * last + decay * second) * swing.imag)
+    cosine, sine = wd * second - decay * last, wd * last + decay * second
+    free_rate = fade * (cosine * swing.real - sine * swing.imag)
     value, rate = np.where(inside, value, free), np.where(inside, rate, free_rate)
     load = np.where(inside, amplitude * np.sin(drive * time), 0.0)
     return value, rate, load - 2 * decay * rate - w**2 * value
 
 
 @dataclass(frozen=True)
-class Plane:
+class PlaneVehicle:
     """A vehicle in the vertical plane as matrices, written down by hand.
 
     Attributes
@@ -163,15 +166,21 @@ class Plane:
     static: np.ndarray
 
 
-def coupled(
-    car: Plane, beam: SimpleBeam, modes: int, speed: float, time: np.ndarray, wave: tuple[float, float] = (0.0, 1.0)
+def coupled_solution(
+    car: PlaneVehicle,
+    beam: SimpleBeam,
+    modes: int,
+    speed: float,
+    time: np.ndarray,
+    wave: tuple[float, float] = (0.0, 1.0),
 ) -> tuple[np.ndarray, np.ndarray]:
     r"""Integrate train and deck as one set of differential equations, at tight tolerance.
 
-    With the axles at x_i = v t - d_i, S = sin(n pi x_i / L) while on the deck, q the terms of the deflection, and r the track,
+    With the axles at x_i = v t - d_i, S = sin(n pi x_i / L) while on the deck, q the terms of the
+    deflection, and r the track,
 
-        u = S q + r,    u' = S q' + v S' q + v r'                       (total derivative: the climb along the deck)
-        F = k (G z - u) + c (G z' - u') - W                             (on the deck, up)
+        u = S q + r,    u' = S q' + v S' q + v r'              (the wheel climbs along the deck)
+        F = k (G z - u) + c (G z' - u') - W                    (on the deck, up)
         M z'' + C z' + K z = G^T (k u + c u')
         q'' + (alpha + beta omega^2) q' + omega^2 q = (2 / m L) S^T F
 
@@ -179,7 +188,7 @@ def coupled(
 
     Parameters
     ----------
-    car : Plane
+    car : PlaneVehicle
     beam : SimpleBeam
     modes : int
         Terms of the deflection.
@@ -200,56 +209,81 @@ def coupled(
     n = np.arange(1, modes + 1)
     number, omega, f = n * np.pi / beam.length, beam.omega(n), len(car.mass)
     damping = beam.alpha + beam.beta * omega**2
-    inverse, (size, wavelength) = np.linalg.inv(car.mass), wave
+    inverse, (amplitude, wavelength) = np.linalg.inv(car.mass), wave
     wavenumber = 2 * np.pi / wavelength
 
-    def contact(t: float, y: np.ndarray, entered: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def contact(
+        t: float, y: np.ndarray, entered: np.ndarray, on: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         x = speed * t - car.delays
-        shape, slope = on[:, None] * np.sin(np.outer(x, number)), on[:, None] * number * np.cos(np.outer(x, number))
-        z, rate, q, q_rate = y[:f], y[f : 2 * f], y[2 * f : 2 * f + modes], y[2 * f + modes :]
-        u = shape @ q + entered * size * np.sin(wavenumber * x)
-        du = shape @ q_rate + speed * (slope @ q + entered * size * wavenumber * np.cos(wavenumber * x))
-        forces = car.spring * (car.rows @ z - u) + car.damper * (car.rows @ rate - du) - car.static
+        shape = on[:, None] * np.sin(np.outer(x, number))
+        slope = on[:, None] * number * np.cos(np.outer(x, number))
+        z, rate, q, q_rate = np.split(y, [f, 2 * f, 2 * f + modes])
+        r = entered * amplitude * np.sin(wavenumber * x)
+        r_slope = entered * amplitude * wavenumber * np.cos(wavenumber * x)
+        u = shape @ q + r
+        du = shape @ q_rate + speed * (slope @ q + r_slope)
+        springs = car.spring * (car.rows @ z - u)
+        forces = springs + car.damper * (car.rows @ rate - du) - car.static
         return forces, car.spring * u + car.damper * du, shape
 
     def derivative(t: float, y: np.ndarray, entered: np.ndarray, on: np.ndarray) -> np.ndarray:
         forces, push, shape = contact(t, y, entered, on)
-        z, rate, q, q_rate = y[:f], y[f : 2 * f], y[2 * f : 2 * f + modes], y[2 * f + modes :]
+        z, rate, q, q_rate = np.split(y, [f, 2 * f, 2 * f + modes])
         up = inverse @ (car.rows.T @ push - car.stiffness @ z - car.damping @ rate)
-        bend = 2 / (beam.mass * beam.length) * shape.T @ forces - damping * q_rate - omega**2 * q
-        return np.concatenate([rate, up, q_rate, bend])
+        load = 2 / (beam.mass * beam.length) * shape.T @ forces
+        return np.concatenate([rate, up, q_rate, load - damping * q_rate - omega**2 * q])
 
-    events = np.unique(np.concatenate([[0.0, time[-1]], car.delays / speed, (car.delays + beam.length) / speed]).round(12))
+    passages = [car.delays / speed, (car.delays + beam.length) / speed]
+    events = np.unique(np.concatenate([[0.0, time[-1]], *passages]).round(12))
     events = events[events <= time[-1]]
     state = np.zeros(2 * f + 2 * modes)
     displacement, forces = np.zeros(len(time)), np.tile(-car.static[:, None], len(time))
+    tight = {"rtol": 1e-8, "atol": 1e-12}
     for start, stop in zip(events[:-1], events[1:], strict=True):
         place = speed * (start + stop) / 2 - car.delays
         entered, on = place > 0.0, (place > 0.0) & (place < beam.length)
-        here = np.flatnonzero((time > start + 1e-11) & (time <= stop + 1e-11))
-        wanted = np.minimum(time[here], stop)
+        inside = np.flatnonzero((time > start + 1e-11) & (time <= stop + 1e-11))
+        wanted = np.minimum(time[inside], stop)
         if len(wanted) == 0 or wanted[-1] < stop:
             wanted = np.append(wanted, stop)
-        found = solve_ivp(derivative, (start, stop), state, "DOP853", wanted, args=(entered, on), rtol=1e-8, atol=1e-12)
-        state = found.y[:, -1]
-        displacement[here] = np.sin(n * np.pi / 2) @ found.y[2 * f : 2 * f + modes, : len(here)]
-        for k, t, y in zip(here, time[here], found.y.T, strict=False):
-            forces[:, k] = contact(t, y, entered, on)[0]
+        y = solve_ivp(
+            derivative, (start, stop), state, "DOP853", wanted, args=(entered, on), **tight
+        ).y
+        state = y[:, -1]
+        displacement[inside] = np.sin(n * np.pi / 2) @ y[2 * f : 2 * f + modes, : len(inside)]
+        for k, column in zip(inside, y.T, strict=False):
+            forces[:, k] = contact(time[k], column, entered, on)[0]
     return displacement, forces
 
 
-def yang_yau() -> tuple[Plane, SimpleBeam, float]:
-    """Return vehicle, beam and speed of Yang & Yau (1997), J. Struct. Eng. 123(11), section on the sprung mass; no damping."""
-    mass, spring = np.array([[5750.0]]), 1595e3
-    car = Plane(mass, np.zeros((1, 1)), np.array([[spring]]), np.ones((1, 1)), spring, 0.0, np.zeros(1), mass[0] * G)
+def yang_yau() -> tuple[PlaneVehicle, SimpleBeam, float]:
+    """Return vehicle, beam and speed of the moving sprung mass, without damping.
+
+    Yang & Yau (1997), J. Struct. Eng. 123(11), section on the sprung mass.
+    """
+    mass, spring = 5750.0, 1595e3
+    car = PlaneVehicle(
+        mass=np.array([[mass]]),
+        damping=np.zeros((1, 1)),
+        stiffness=np.array([[spring]]),
+        rows=np.ones((1, 1)),
+        spring=spring,
+        damper=0.0,
+        delays=np.zeros(1),
+        static=np.array([mass * GRAVITY]),
+    )
     return car, SimpleBeam(25.0, 2303.0, 2.87e9 * 2.90), 100 / 3.6
 
 
-def car_in_plane() -> tuple[Plane, SimpleBeam]:
-    """Return the paper's car with 6 freedoms and its deck's vertical plane: Table 1 by hand, 3.307 Hz, 3 % at two frequencies.
+def car_in_plane() -> tuple[PlaneVehicle, SimpleBeam]:
+    """Return the paper's car with 6 freedoms and its deck in the vertical plane.
 
-    Freedoms: z and pitch (nose down positive) of car body, front and rear bogie. A point x ahead of a body's centre rises by
-    z - x pitch. Each axle has two primary springs, each bogie two secondary ones.
+    The car is Table 1 by hand, the deck has 3.307 Hz and a damping of 3 % at two frequencies.
+
+    Freedoms: z and pitch (nose down positive) of car body, front and rear bogie. A point x ahead
+    of a body's centre rises by z - x pitch. Each axle has two primary springs, each bogie two
+    secondary ones.
     """
     scale = {"kg": 1.0, "kg m2": 1.0, "m": 1.0, "kN/m": 1e3, "kN s/m": 1e3}
     path = shelf.data_file("vehicles", "xia2000")
@@ -258,13 +292,17 @@ def car_in_plane() -> tuple[Plane, SimpleBeam]:
     half, axle = p["bogie_spacing"] / 2, p["axle_spacing"] / 2
     spring, damper = 2 * p["primary_vertical_stiffness"], 2 * p["primary_vertical_damping"]
     secondary = np.array([[1, -half, -1, 0, 0, 0], [1, half, 0, 0, -1, 0]], dtype=float)
-    rows = np.array([[0, 0, 1, -axle, 0, 0], [0, 0, 1, axle, 0, 0], [0, 0, 0, 0, 1, -axle], [0, 0, 0, 0, 1, axle]])
-    masses = [p["car_body_mass"], p["car_body_pitch_inertia"], *(p["bogie_mass"], p["bogie_pitch_inertia"]) * 2]
-    weight = (p["car_body_mass"] + 2 * p["bogie_mass"]) * G
-    car = Plane(
-        mass=np.diag(masses),
-        damping=2 * p["secondary_vertical_damping"] * secondary.T @ secondary + damper * rows.T @ rows,
-        stiffness=2 * p["secondary_vertical_stiffness"] * secondary.T @ secondary + spring * rows.T @ rows,
+    rows = np.zeros((4, 6))
+    rows[:2, 2:4] = rows[2:, 4:] = [[1, -axle], [1, axle]]
+    bogie = [p["bogie_mass"], p["bogie_pitch_inertia"]]
+    weight = (p["car_body_mass"] + 2 * p["bogie_mass"]) * GRAVITY
+    secondary_stiffness, secondary_damping = (
+        2 * p[f"secondary_vertical_{kind}"] for kind in ("stiffness", "damping")
+    )
+    car = PlaneVehicle(
+        mass=np.diag([p["car_body_mass"], p["car_body_pitch_inertia"], *bogie, *bogie]),
+        damping=secondary_damping * secondary.T @ secondary + damper * rows.T @ rows,
+        stiffness=secondary_stiffness * secondary.T @ secondary + spring * rows.T @ rows,
         rows=rows,
         spring=spring,
         damper=damper,
