@@ -17,11 +17,10 @@ from typing import Any
 
 import numpy as np
 
-from .. import errors
+from .. import errors, exchange
 from ..crossing import Crossing, cross
 from ..decks import Deck
 from ..errors import InputError
-from ..exchange import files as exchange
 from ..settings import Settings, check
 from ..tracks import Harmonic, Irregularity, Level, Notch, Rails, Table, Track
 from ..trains import AxleTrain, Train
@@ -194,6 +193,8 @@ def _deck(raw: Any) -> Deck:
         try:
             return _cached_deck("deck", json.dumps(content, sort_keys=True), *exchange.stamps(content))
         except InputError as error:
+            if error.source:
+                raise
             # A deck file's errors name the file; those of a case name the key's path.
             field = error.field.replace(": ", ".")
             field = field if field.split(".")[0] == "deck" else f"deck.{field}"

@@ -17,7 +17,7 @@ from ..boxes import Box, BoxMesh, Pads
 from ..boxes.pads import DIRECTIONS
 from ..decks import Deck, rayleigh
 from ..errors import InputError
-from ..exchange import files as exchange
+from ..exchange import ModesTable, beside
 from ..vehicles import CAR_PARAMETERS, FREEDOMS, Body, Spring, Vehicle, two_bogie_car
 from . import shelf
 
@@ -47,6 +47,9 @@ _SHEAR_AREAS = ("shear_area_vertical", "shear_area_lateral")
 _BEAM_KEYS = (
     "length", "spans", "section", *_STIFFNESSES, "mass", "damping", "modes", "bearing", "tracks", "width", "elements",
     "continuous", "rotary_inertia", "centroid_height", "track_height", "name", "source", "note",
+)  # fmt: skip
+_MODAL_KEYS = (
+    "modes", "damping", "tracks", "width", "track_height", "name", "source", "note",
 )  # fmt: skip
 _BOX_KEYS = (
     "length", "spans", "box", "model", "mesh", "shear", "rotary_inertia", "damping", "modes", "bearing", "tracks", "name",
@@ -162,11 +165,14 @@ def track_height(where: str, content: dict[str, Any]) -> float:
 
 def _from_modes(where: str, name: str, content: dict[str, Any]) -> Deck:
     """Build a deck of which only the modes are known; see `exchange`."""
-    errors.keys(where, content, exchange.FILE_KEYS)
+    errors.keys(where, content, _MODAL_KEYS)
     tracks, width = _tracks(where, content)
     damping = _damping(where, errors.table(f"{where}: damping", content["damping"])) if "damping" in content else None
     own = {"name": name, "tracks": tracks, "width": width, "track_height": track_height(where, content)}
-    return exchange.deck_from_files(where, content["modes"], damping, **own)
+    names = [f.name for f in fields(ModesTable)]
+    errors.keys(f"{where}: modes", content["modes"], names, ["nodes", "modes"])
+    with errors.within(f"{where}: modes"):
+        return ModesTable(**content["modes"]).deck(damping, **own)
 
 
 def _tracks(where: str, content: dict[str, Any]) -> tuple[dict[str, float], float | None]:
@@ -232,7 +238,7 @@ def deck(source: str | Path) -> Deck:
     path = shelf.data_file("decks", source)
     if path.suffix != ".toml":
         raise InputError("deck", str(source), "deck files are TOML")
-    return deck_from_table(path.stem, exchange.beside(shelf.read_toml(path), path.parent))
+    return deck_from_table(path.stem, beside(shelf.read_toml(path), path.parent))
 
 
 _DIMENSIONS = tuple(f.name for f in fields(Box) if f.name not in ("name", "spans", "bearings", "tracks"))
