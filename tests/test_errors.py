@@ -5,11 +5,8 @@ from typing import Annotated, Literal
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from railbridge import errors, units
-from railbridge.cases import shelf
+from railbridge import errors
 from railbridge.errors import InputError, Range
 
 
@@ -52,20 +49,6 @@ def test_ranges():
             errors.numbers("x", wrong)
 
 
-UNITS = [
-    ("kN", "N", 1e3), ("mm", "m", 1e-3), ("km/h", "m/s", 1 / 3.6), ("t/m", "kg/m", 1e3), ("GPa", "Pa", 1e9),
-    ("kN s/m", "N s/m", 1e3), ("t m2", "kg m2", 1e3), ("kN m2", "N m2", 1e3),
-]  # fmt: skip
-
-
-@given(value=st.floats(-1e6, 1e6), pair=st.sampled_from(UNITS))
-def test_units(value, pair):
-    unit, si, factor = pair
-    assert units.quantity("x", value, unit, si) == pytest.approx(value * factor, rel=1e-14, abs=1e-25)
-    with pytest.raises(InputError, match="unit"):
-        units.quantity("x", value, "s" if si != "s" else "m", si)
-
-
 def test_did_you_mean_and_choice():
     with pytest.raises(InputError, match="Did you mean 'wheels'"):
         errors.choice("run.loads", "wheel", ("wheels", "bogies"))
@@ -93,6 +76,13 @@ def test_within_says_where_a_field_stands_and_what_the_user_calls_it():
             errors.number("x", "far")
     assert error.value.field == "deck.bearing[2].x"
     assert str(error.value).startswith("my.toml: deck.bearing[2].x = 'far': must be a finite number")
+
+
+def test_what_is_refused_inside_a_file_is_found_by_that_file_s_name():
+    with pytest.raises(InputError) as error, errors.within("deck", {"x": "place"}, source="my.toml"):
+        raise InputError("x", "far", "must be a number", source="modes.csv")
+    assert (error.value.source, error.value.field) == ("modes.csv", "x")
+    assert str(error.value) == "modes.csv: x = 'far': must be a number."
 
 
 def test_places_in_lists_count_from_1():
@@ -129,79 +119,3 @@ def test_a_dataclass_is_held_to_the_types_of_its_fields():
     ]:
         with pytest.raises(InputError, match=words):
             Example(**{"size": 1.0, **given})
-
-
-def test_shipped_data_is_found_and_files_by_path(tmp_path):
-    assert shelf.data_names("vehicles") == ["sprung_mass", "xia2000", "xia2000_planar"]
-    assert shelf.data_file("decks", "viaduct36").name == "viaduct36.toml"
-    mine = tmp_path / "mine.toml"
-    mine.write_text("\ufeffa = 1\n", encoding="utf-8")  # Notepad's byte order mark
-    assert shelf.read_toml(shelf.data_file("decks", mine)) == {"a": 1}
-
-
-HEADER = "symbol,name,value,unit,source,note\n"
-
-
-@pytest.mark.parametrize("text", [HEADER + "m,mass,2,t,,\n", "\ufeff" + HEADER + "m,mass,2,t,,\n",
-    (HEADER + "m,mass,2000,kg,,\n").replace("\n", "\r\n"), "name,value,unit,symbol,note,source\nmass,2,t,m,,\n\n,,,,,\n",
-    HEADER + 'm,"mass",2e0,t,"a, b",\n'])  # fmt: skip
-def test_good_parameter_tables(tmp_path, text):
-    path = tmp_path / "p.csv"
-    path.write_bytes(text.encode())
-    assert shelf.read_parameters(path, {"mass": "kg"}) == {"mass": 2000.0}
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("", "column symbol: is missing"),
-        ("\n\n", "column symbol: is missing"),
-        (HEADER, "row mass: is missing"),
-        ("symbol,name,value,source,note\nm,mass,2,,\n", "column unit: is missing"),
-        ("symbol,name,value,value,unit,source,note\n", "column value: appears more than once"),
-        ("symbol,name,valeu,unit,source,note\n", "Did you mean 'value'"),
-        (HEADER + "m,mass,2,t,,\nm,mass,2,t,,\n", "row mass: appears more than once"),
-        (HEADER + "m,mas,2,t,,\n", "row mas: unknown parameter. Did you mean 'mass'"),
-        (HEADER + "m,mass,2,kN,,\n", "unit of .*mass must be one of kg, t"),
-        (HEADER + "m,mass,2,,,\n", "unit of .*mass must be one of kg, t"),
-        (HEADER + "m,mass,nan,t,,\n", "mass = nan: must be a finite number"),
-        (HEADER + "m,mass,inf,t,,\n", "mass = inf: must be a finite number"),
-        (HEADER + "m,mass,1e400,t,,\n", "mass = inf: must be a finite number"),
-        (HEADER + "m,mass,two,t,,\n", "mass = 'two': must be a number"),
-        (HEADER + "m,mass,1.000.0,t,,\n", "mass = '1.000.0': must be a number"),
-        (HEADER + 'm,mass,"2,5",t,,\n', "mass = '2,5': must be a number. Use a point as decimal mark"),
-        (HEADER + "m,mass,2,5,t,,\n", "row 2 .*must have 6 cells, it has 7"),
-        (HEADER + "m,mass,2,t\n", "row 2 .*must have 6 cells, it has 4"),
-        (HEADER.replace(",", ";") + "m;mass;2;t;;\n", "unknown column"),
-        (HEADER + "m,mass,,t,,\n", "mass = '': must be a number"),
-    ],
-)
-def test_bad_parameter_tables(tmp_path, text, message):
-    path = tmp_path / "p.csv"
-    path.write_text(text, encoding="utf-8")
-    with pytest.raises(InputError, match=message) as error:
-        shelf.read_parameters(path, {"mass": "kg"})
-    assert "p.csv" in error.value.field
-
-
-@given(blob=st.binary(max_size=300))
-def test_binary_rubbish_is_refused_in_words(tmp_path_factory, blob):
-    folder = tmp_path_factory.mktemp("rubbish")
-    (folder / "p.csv").write_bytes(blob)
-    (folder / "p.toml").write_bytes(blob)
-    with pytest.raises(InputError, match="p.csv"):
-        shelf.read_parameters(folder / "p.csv", {"mass": "kg"})
-    try:
-        shelf.read_toml(folder / "p.toml")
-    except InputError as error:
-        assert "p.toml" in str(error)
-
-
-@pytest.mark.parametrize(
-    "text", ["a = 1\na = 2", "[a", "a = 1979-13-45", "a = " + "[" * 5000, "a = " + "9" * 5000, "a: 1", "a = 1,5"]
-)
-def test_what_is_no_toml(tmp_path, text):
-    path = tmp_path / "p.toml"
-    path.write_text(text)
-    with pytest.raises(InputError, match="not a valid TOML"):
-        shelf.read_toml(path)

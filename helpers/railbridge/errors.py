@@ -61,11 +61,16 @@ class InputError(ValueError):
     def moved(
         self, path: str = "", names: Mapping[str, str] | None = None, source: str = ""
     ) -> InputError:
-        """Return the same refusal with the way there put in front; see `within`."""
+        """Return the same refusal with the way there put in front; see `within`.
+
+        Nothing stands in front of a file: what names its own is returned as it is.
+        """
+        if self.source:
+            return self
         head = self.field.partition(".")[0].partition("[")[0]
         field = (names or {}).get(head, head) + self.field[len(head) :]
         return InputError(
-            joined(path, field), self.value, self.allowed, self.remedy, source or self.source
+            joined(path, field), self.value, self.allowed, self.remedy, source
         )
 
 
@@ -87,7 +92,8 @@ def within(
     names : mapping, optional
         What the user calls a field that the code inside calls otherwise: {"bearings": "bearing"}.
     source : str
-        The file or named table that holds it all.
+        The file or named table that holds it all. What is refused inside a file is found by that
+        file's name: the path, names and source of whoever opened it are not added.
     """
     try:
         yield

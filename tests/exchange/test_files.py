@@ -12,9 +12,9 @@ from modal_files import EXAMPLE, cells, change, crossing, differ, read
 from opensees import example_tables, viaduct36_in_mm
 
 import railbridge as rb
+from railbridge import exchange
 from railbridge.cases import command as cli
 from railbridge.cases.shelf import data_root
-from railbridge.exchange import files as exchange
 
 
 @pytest.fixture
@@ -30,14 +30,28 @@ def beams():
     plain = rb.deck("viaduct36")
     beam = plain.recovery.beam
     soft = dataclasses.replace(beam, shear_stiffness_vertical=3e9, shear_stiffness_lateral=3e9)
-    spans = rb.deck_from_table("two", {**json.loads(TWO_SPANS)})
+    spans = rb.deck_from_table("two", TWO_SPANS)
     raised = dataclasses.replace(plain, track_height=1.3)
     tracks = {"tracks": plain.tracks, "width": plain.width}
-    return {"plain": plain, "soft in shear": soft.deck(12, 0.02, **tracks), "two spans": spans, "track above the axis": raised}
+    return {
+        "plain": plain,
+        "soft in shear": soft.deck(12, 0.02, **tracks),
+        "two spans": spans,
+        "track above the axis": raised,
+    }
 
 
-TWO_SPANS = """{"spans": [20.0, 16.0], "mass": 12000.0, "bending_stiffness_vertical": 3e10, "bending_stiffness_lateral": 3e11,
- "torsional_stiffness": 8e10, "polar_inertia": 7e4, "damping": {"modal": 0.02}, "modes": 12, "tracks": {"left": 2.0}}"""
+TWO_SPANS = {
+    "spans": [20.0, 16.0],
+    "mass": 12000.0,
+    "bending_stiffness_vertical": 3e10,
+    "bending_stiffness_lateral": 3e11,
+    "torsional_stiffness": 8e10,
+    "polar_inertia": 7e4,
+    "damping": {"modal": 0.02},
+    "modes": 12,
+    "tracks": {"left": 2.0},
+}
 
 
 @pytest.mark.parametrize("units", [("m", "kg"), ("mm", "t")])
@@ -45,7 +59,11 @@ TWO_SPANS = """{"spans": [20.0, 16.0], "mass": 12000.0, "bending_stiffness_verti
 def test_a_deck_that_is_written_and_read_back_answers_alike(name, units, tmp_path):
     deck = beams()[name]
     back = rb.deck(exchange.export_modes(deck, tmp_path / "out", units))
-    assert back.mode_names == deck.mode_names and back.tracks == deck.tracks and back.supports == deck.supports
+    assert (
+        back.mode_names == deck.mode_names
+        and back.tracks == deck.tracks
+        and back.supports == deck.supports
+    )
     assert back.recovery is None and back.track_height == deck.track_height
     ours, theirs = crossing(deck), crossing(back)
     for kind in ("displacement", "velocity", "acceleration"):
@@ -62,7 +80,8 @@ def test_written_tables_stand_without_the_deck_file(tmp_path):
     model = exchange.read_modes(tmp_path / "nodes.csv", tmp_path / "modes.csv")
     assert model.to_frame().shape == (20, 2)
     assert differ(exchange.deck_from_modes(model, model.nodes.line()), deck).max() < 1e-12
-    # Other readers do not know the rule of thirds: rotations give cubics, twist is a parabola over three nodes.
+    # Other readers do not know the rule of thirds: rotations give cubics, twist is a parabola over
+    # three nodes.
     change(tmp_path / "nodes.csv", lambda lines: [line for line in lines if "pieces" not in line])
     model = exchange.read_modes(tmp_path / "nodes.csv", tmp_path / "modes.csv")
     bending, twist = differ(exchange.deck_from_modes(model, model.nodes.line()), deck)[[1, 2]]
@@ -84,12 +103,14 @@ def test_the_example_is_what_the_other_program_computes():
 
 
 def test_the_example_is_the_shipped_deck():
-    deck, ours = rb.deck(EXAMPLE / "deck.toml"), rb.case("paper").replace({"deck": {"file": "viaduct36", "modes": 10}}).deck
+    deck = rb.deck(EXAMPLE / "deck.toml")
+    ours = rb.case("paper").replace({"deck": {"file": "viaduct36", "modes": 10}}).deck
     assert deck.mode_names == (
-        "vertical 1", "lateral 1", "vertical 2", "torsion 1", "vertical 3", "torsion 2", "lateral 2", "torsion 3", "vertical 4",
-        "torsion 4",
+        "vertical 1", "lateral 1", "vertical 2", "torsion 1", "vertical 3", "torsion 2",
+        "lateral 2", "torsion 3", "vertical 4", "torsion 4",
     )  # fmt: skip
-    # Nodal masses make torsion of the other program's elements a little soft: pi^2 n^2 / (24 * 24^2), 1.1 % at n = 4.
+    # Nodal masses make torsion of the other program's elements a little soft:
+    # pi^2 n^2 / (24 * 24^2), 1.1 % at n = 4.
     assert deck.frequencies_hz == pytest.approx(ours.frequencies_hz, rel=1.2e-2)
     assert deck.frequencies_hz[:4] == pytest.approx(ours.frequencies_hz[:4], rel=1e-3)
     there, here = crossing(deck), crossing(ours)
@@ -108,7 +129,10 @@ def test_units_and_axes_of_the_model_do_not_matter(folder):
 
     def pounds(lines):
         # y up: the model's y is our z, its z our -y. Shapes are scaled to a modal mass of 7 lb.
-        scale, result = (0.45359237 / 1e3 * 7.0) ** 0.5, ["# units: in, lb", lines[1] + ",modal_mass"]
+        scale, result = (
+            (0.45359237 / 1e3 * 7.0) ** 0.5,
+            ["# units: in, lb", lines[1] + ",modal_mass"],
+        )
         for line in lines[2:]:
             row = line.split(",")
             v = [float(c) for c in row[4:]]
@@ -130,19 +154,31 @@ def test_units_and_axes_of_the_model_do_not_matter(folder):
 def test_a_case_takes_a_modal_deck_by_file_and_in_place(folder):
     case = rb.case("paper")
     by_file = case.replace({"deck": {"file": str(folder / "deck.toml")}})
-    tables = {"modes": {k: str(folder / f"{k}.csv") for k in ("nodes", "modes")} | {"rail": {"y": 0.0, "z": 0.0}}}
-    in_place = case.replace({"deck": {**tables, "tracks": {"left": 2.4}, "damping": {"modal": 0.02}}})
+    tables = {
+        "modes": {k: str(folder / f"{k}.csv") for k in ("nodes", "modes")}
+        | {"rail": {"y": 0.0, "z": 0.0}}
+    }
+    in_place = case.replace(
+        {"deck": {**tables, "tracks": {"left": 2.4}, "damping": {"modal": 0.02}}}
+    )
     assert by_file.deck.frequencies_hz.tolist() == in_place.deck.frequencies_hz.tolist()
     assert set(in_place.deck.damping_ratios) == {0.02}
     assert len(by_file.replace({"deck.modes": 4}).deck.frequencies_hz) == 4
-    change(folder / "modes.csv", lambda lines: [line.replace("3.30737617", "3.4") for line in lines])
-    assert by_file.replace({"run.speed": 21.0}).deck is by_file.deck, "a change that does not name the deck keeps it"
-    assert rb.Case(by_file.content).deck.frequencies_hz[0] == 3.4, "a case made anew reads a changed file again"
+    change(
+        folder / "modes.csv", lambda lines: [line.replace("3.30737617", "3.4") for line in lines]
+    )
+    assert by_file.replace({"run.speed": 21.0}).deck is by_file.deck, (
+        "a change that does not name the deck keeps it"
+    )
+    assert rb.Case(by_file.content).deck.frequencies_hz[0] == 3.4, (
+        "a case made anew reads a changed file again"
+    )
 
 
 def test_paths_in_a_case_file_are_relative_to_it(folder, tmp_path, monkeypatch):
     text = (
-        '[deck]\ntracks = { left = 2.4 }\n[deck.modes]\nnodes = "model/nodes.csv"\nmodes = "model/modes.csv"\n'
+        "[deck]\ntracks = { left = 2.4 }\n"
+        '[deck.modes]\nnodes = "model/nodes.csv"\nmodes = "model/modes.csv"\n'
         'rail = { y = 0.0, z = 0.0 }\n[train]\nvehicle = "xia2000"\n[run]\nspeed = 20.0\n'
     )
     (tmp_path / "case.toml").write_text(text, encoding="utf-8")
@@ -154,7 +190,9 @@ def test_paths_in_a_case_file_are_relative_to_it(folder, tmp_path, monkeypatch):
 
 
 def other_line(number, edit):
-    return lambda lines: [edit(line) if i == number else line for i, line in enumerate(lines, start=1)]
+    return lambda lines: [
+        edit(line) if i == number else line for i, line in enumerate(lines, start=1)
+    ]
 
 
 def mode(number, edit):
@@ -163,7 +201,8 @@ def mode(number, edit):
 
 def scaled(column, factor):
     return lambda lines: [
-        line if i < 2 else cells(line, column, repr(float(line.split(",")[column]) * factor)) for i, line in enumerate(lines)
+        line if i < 2 else cells(line, column, repr(float(line.split(",")[column]) * factor))
+        for i, line in enumerate(lines)
     ]
 
 
@@ -183,7 +222,12 @@ def mixed(lines):
     def mix(line):
         row = line.split(",")
         other = first[row[3]]
-        return ",".join([*row[:4], *(repr(float(a) + 0.5 * float(b)) for a, b in zip(row[4:], other[4:], strict=True))])
+        return ",".join(
+            [
+                *row[:4],
+                *(repr(float(a) + 0.5 * float(b)) for a, b in zip(row[4:], other[4:], strict=True)),
+            ]
+        )
 
     return mode(3, mix)(lines)
 
@@ -192,37 +236,120 @@ def doubled(lines):
     return [*lines, *(cells(line, 0, "11") for line in lines if line.startswith("5,"))]
 
 
+def cell(number, column, value):
+    """Change one cell of a line."""
+    return other_line(number, lambda line: cells(line, column, value))
+
+
+def replaced(old, new):
+    return lambda lines: [line.replace(old, new) for line in lines]
+
+
+def without_node_9(lines):
+    return [line for line in lines if line.split(",")[3:4] != ["9"]]
+
+
 BAD = {
-    "a row is missing": ("modes.csv", lambda lines: lines[:80] + lines[81:], "mode 2: lacks 1 of the nodes that other modes"),
-    "a node in no mode": ("modes.csv", lambda ls: [x for x in ls if x.split(",")[3:4] != ["9"]], "4% of the mass stands"),
-    "a node that is not there": ("modes.csv", other_line(20, lambda x: cells(x, 3, "999")), "line 20: node = '999': is not"),
-    "a node twice": ("nodes.csv", lambda lines: [*lines, "7,1,2,3"], "node = '7': is given twice, in lines 9 and 78"),
-    "a node twice in a mode": ("modes.csv", lambda lines: [*lines, lines[-1]], "mode 10: node = '225': is given twice"),
-    "two nodes at one place": ("nodes.csv", other_line(5, lambda x: cells(x, 1, "1500")), "two nodes stand at x = 1.5 m"),
-    "modes that overlap": ("modes.csv", mixed, "modes 1 and 3: 0.45 of their mass products is shared"),
-    "a mode twice": ("modes.csv", doubled, "modes 5 and 11"),
-    "shapes of largest value 1": ("modes.csv", shapes_scaled(10.0), "not mass-normalised, or masses in another unit"),
-    "kg instead of t": ("nodes.csv", other_line(1, lambda x: "# units: mm, kg"), "the file itself says mm, t"),
-    "no units": ("nodes.csv", lambda lines: lines[1:], "nodes.csv: units: are stated nowhere"),
-    "an unknown unit": ("nodes.csv", other_line(1, lambda x: "# units: yd, t"), "units of length = 'yd'"),
-    "a column is missing": ("modes.csv", other_line(2, lambda x: x.replace("uz", "w")), "column w: unknown column"),
-    "no number": ("modes.csv", other_line(9, lambda x: cells(x, 6, "1,5".replace(",", ";"))), "line 9: uz = '1;5'"),
-    "not a number": ("nodes.csv", other_line(9, lambda x: cells(x, 1, "nan")), "line 9: x = 'nan': must be a finite number"),
-    "a cell too many": ("nodes.csv", other_line(9, lambda x: x + ",0"), "line 9 = '7,9000,0,0,0': must have 4 cells"),
-    "two frequencies": ("modes.csv", other_line(9, lambda x: cells(x, 1, "3.4")), "mode 1: frequency_hz = [3.30737617, 3.4]"),
-    "a free body": ("modes.csv", mode(1, lambda x: cells(x, 1, "0")), "hold the deck by its bearings"),
-    "damping in per cent": ("modes.csv", mode(1, lambda x: cells(x, 2, "3")), "damping_ratio = 3.0"),
-    "a negative mass": ("masses.csv", other_line(9, lambda x: cells(x, 1, "-1")), "node 7: mass"),
-    "no rows": ("masses.csv", lambda lines: lines[:2], "masses.csv: holds no rows"),
-    "few rail nodes": ("deck.toml", lambda lines: [x.replace("y = 0.0", "y = 1.0") for x in lines], "rail = {'y': 1.0"),
-    "an unknown key": ("deck.toml", lambda lines: [*lines, "rails = 1"], "modes.rails: unknown key. Did you mean 'rail'?"),
-    "a wrong path": ("deck.toml", lambda lines: [x.replace('"modes.csv"', '"mode.csv"') for x in lines], "file = 'mode.csv'"),
-}  # fmt: skip
+    "modes.csv": {
+        "a row is missing": (
+            lambda lines: lines[:80] + lines[81:],
+            "modes.csv: mode 2: lacks 1 of the nodes that other modes",
+        ),
+        "a node that is not there": (
+            cell(20, 3, "999"),
+            "modes.csv: line 20: node = '999': is not",
+        ),
+        "a node twice in a mode": (
+            lambda lines: [*lines, lines[-1]],
+            "modes.csv: mode 10: node = '225': is given twice",
+        ),
+        "modes that overlap": (
+            mixed,
+            "modes.csv: modes 1 and 3: 0.45 of their mass products is shared",
+        ),
+        "a mode twice": (doubled, "modes 5 and 11"),
+        "shapes of largest value 1": (
+            shapes_scaled(10.0),
+            "modes.csv: shapes: phi M phi is 100 for a mode, must be about 1: not mass-normalised, "
+            "or masses in another unit",
+        ),
+        "a column is missing": (
+            other_line(2, lambda x: x.replace("uz", "w")),
+            "modes.csv: column w: unknown column",
+        ),
+        "no number": (cell(9, 6, "1;5"), "modes.csv: line 9: uz = '1;5'"),
+        "two frequencies": (
+            cell(9, 1, "3.4"),
+            "modes.csv: mode 1: frequency_hz = [3.30737617, 3.4]",
+        ),
+        "a free body": (
+            mode(1, lambda x: cells(x, 1, "0")),
+            "modes.csv: mode 1: frequency_hz = 0.0: must be a finite number above 1e-06 Hz. A mode "
+            "of 0 Hz is a free body: hold the deck by its bearings",
+        ),
+        "damping in per cent": (
+            mode(1, lambda x: cells(x, 2, "3")),
+            "mode 1: damping_ratio = 3.0: must be a finite number at least 0 and at most 0.5. Give",
+        ),
+        "a negative damping ratio": (
+            mode(3, lambda x: cells(x, 2, "-0.1")),
+            "mode 3: damping_ratio = -0.1: must be a finite number at least 0",
+        ),
+        "a node in no mode": (without_node_9, "masses.csv: mass: 4% of the mass stands"),
+    },
+    "nodes.csv": {
+        "a node twice": (
+            lambda lines: [*lines, "7,1,2,3"],
+            "nodes.csv: node = '7': is given twice, in lines 9 and 78",
+        ),
+        "two nodes at one place": (cell(5, 1, "1500"), "two nodes stand at x = 1.5 m"),
+        "kg instead of t": (
+            other_line(1, lambda x: "# units: mm, kg"),
+            "modes.csv: units = ['mm', 't']: the nodes are in mm, kg",
+        ),
+        "no units": (lambda lines: lines[1:], "nodes.csv: units: are stated nowhere"),
+        "an unknown unit": (
+            other_line(1, lambda x: "# units: yd, t"),
+            "nodes.csv: units[1] = 'yd': must be one of m, mm",
+        ),
+        "not a number": (cell(9, 1, "nan"), "line 9: x = 'nan': must be a finite number"),
+        "a cell too many": (
+            other_line(9, lambda x: x + ",0"),
+            "line 9 = '7,9000,0,0,0': must have 4 cells",
+        ),
+    },
+    "masses.csv": {
+        "a negative mass": (cell(9, 1, "-1"), "masses.csv: node 7: mass"),
+        "a mass at no node": (
+            cell(9, 0, "999"),
+            "masses.csv: node = '999': is not among the nodes",
+        ),
+        "other units": (
+            other_line(1, lambda x: "# units: mm, kg"),
+            "masses.csv: units = ['mm', 'kg']: the nodes are in mm, t",
+        ),
+        "no rows": (
+            lambda lines: lines[:2],
+            "masses.csv: rows: there are none below the header",
+        ),
+    },
+    "deck.toml": {
+        "few rail nodes": (replaced("y = 0.0", "y = 1.0"), "modes.rail = {'y': 1.0"),
+        "an unknown key": (
+            lambda lines: [*lines, "rails = 1"],
+            "modes.rails: unknown key. Did you mean 'rail'?",
+        ),
+        "a wrong path": (
+            replaced('"modes.csv"', '"mode.csv"'),
+            "modes.modes = 'mode.csv': no such file. A path in a deck file is relative to that",
+        ),
+    },
+}
 
 
-@pytest.mark.parametrize("name", BAD)
-def test_what_cannot_be_used_is_refused(name, folder):
-    file, edit, message = BAD[name]
+@pytest.mark.parametrize(("file", "name"), [(file, name) for file in BAD for name in BAD[file]])
+def test_what_cannot_be_used_is_refused(file, name, folder):
+    edit, message = BAD[file][name]
     change(folder / file, edit)
     with pytest.raises(rb.InputError) as error:
         rb.deck(folder / "deck.toml")
@@ -230,14 +357,19 @@ def test_what_cannot_be_used_is_refused(name, folder):
 
 
 def units(text):
-    return {name: other_line(1, lambda line: f"# units: {text}") for name in ("nodes.csv", "modes.csv")}
+    return {
+        name: other_line(1, lambda line: f"# units: {text}") for name in ("nodes.csv", "modes.csv")
+    }
 
 
 ODD = {
     "m instead of mm": (units("m, t"), "an order of magnitude away: bridges of 3.6e+04 m"),
     "squares of rad/s": ({"modes.csv": scaled(1, 130.0)}, "first frequency = 429.9"),
     "kg instead of t": (units("mm, kg"), "make the deck 12 kg per metre"),
-    "shapes of largest value 1": ({"modes.csv": shapes_scaled(0.0147)}, "need the column modal_mass"),
+    "shapes of largest value 1": (
+        {"modes.csv": shapes_scaled(0.0147)},
+        "need the column modal_mass",
+    ),
 }
 
 
@@ -246,7 +378,10 @@ def test_units_that_make_no_bridge_are_refused_without_masses_too(name, folder):
     edits, message = ODD[name]
     for file, edit in edits.items():
         change(folder / file, edit)
-    change(folder / "deck.toml", lambda lines: [x for x in lines if not x.startswith(("masses", "supports"))])
+    change(
+        folder / "deck.toml",
+        lambda lines: [x for x in lines if not x.startswith(("masses", "supports"))],
+    )
     with pytest.raises(rb.InputError) as error:
         rb.deck(folder / "deck.toml")
     assert message in str(error.value)
@@ -256,7 +391,9 @@ def test_units_that_make_no_bridge_are_refused_without_masses_too(name, folder):
 
 def test_doubtful_models_are_warned_about(folder):
     change(folder / "modes.csv", scaled(1, 2 * np.pi))
-    with pytest.warns(UserWarning, match=r"first frequency 20.8 Hz: bridges of 36 m have about 2.8 to 6.5 Hz"):
+    with pytest.warns(
+        UserWarning, match=r"first frequency 20.8 Hz: bridges of 36 m have about 2.8 to 6.5 Hz"
+    ):
         rb.deck(folder / "deck.toml")
     change(folder / "modes.csv", scaled(1, 0.5 / np.pi))
     change(folder / "modes.csv", scaled(8, -1.0))
@@ -271,50 +408,51 @@ def test_doubtful_models_are_warned_about(folder):
 
 
 def test_other_refusals_name_the_field(folder):
-    model = read(EXAMPLE)
-    for rail, field in [
-        ({"nodes": [1, 2, 999]}, "rail.nodes"),
-        ({"nodes": [1, 2, 2]}, "rail.nodes"),
-        ({"nodes": "1 2 3"}, "rail.nodes"),
-        ({"y": 0.0, "nodes": [1, 2, 3]}, "rail.y"),
-        ({"left": {"y": 1.42}, "right": {"y": 3.38}}, "rail.left"),
-        ({"left": {"y": 3.38}, "right": {"nodes": [1, 2, 3]}}, "rail"),
-        ({"left": {"nodes": [101, 102, 103]}, "right": {"nodes": [201, 203, 204]}}, "rail"),
-        (None, "rail"),
-    ]:
-        with pytest.raises(rb.InputError) as error:
-            model.nodes.line(rail)
-        assert error.value.field == field
     for axes in (["x", "y", "-z"], ["x", "x", "z"], "xyz", ["x", "up", "z"]):
         with pytest.raises(rb.InputError, match="axes"):
             read(EXAMPLE, axes=axes)
     change(
         folder / "modes.csv",
-        lambda lines: [cells(x, 2, "damping_ratio" if i == 1 else "") if i else x for i, x in enumerate(lines)],
+        lambda lines: [
+            cells(x, 2, "damping_ratio" if i == 1 else "") if i else x for i, x in enumerate(lines)
+        ],
     )
     with pytest.raises(rb.InputError, match="damping: is missing"):
         rb.deck(folder / "deck.toml")
-    change(folder / "modes.csv", lambda lines: [x for x in lines if x.split(",")[3:4] != ["9"]])
+    change(folder / "modes.csv", without_node_9)
     change(folder / "deck.toml", lambda lines: [x for x in lines if not x.startswith("masses")])
-    with pytest.raises(rb.InputError, match="rail = '9': is a node of the rail that the modes leave out"):
+    with pytest.raises(
+        rb.InputError, match="rail = '9': is a node of the rail that the modes leave out"
+    ):
         rb.deck(folder / "deck.toml")
 
 
 def test_the_other_programs_deck_is_the_shipped_section():
-    assert viaduct36_in_mm().masses()[1].tolist() == pytest.approx([12e3 * 1e-3 * 1.5, 2500 * (2.553 + 25.53) * 1.5 * 1e3])
+    assert viaduct36_in_mm().masses()[1].tolist() == pytest.approx(
+        [12e3 * 1e-3 * 1.5, 2500 * (2.553 + 25.53) * 1.5 * 1e3]
+    )
 
 
 def test_a_modal_deck_runs_by_command_and_fits_the_schema(folder, tmp_path, capsys):
     schema = json.loads((data_root() / "case.schema.json").read_text(encoding="utf-8"))
     deck = tomllib.loads((folder / "deck.toml").read_text(encoding="utf-8"))
-    content = {"deck": deck, "train": {"vehicle": "xia2000_planar"}, "run": {"speed": 20.0, "time_step": 4e-3, "iterations": 1}}
+    content = {
+        "deck": deck,
+        "train": {"vehicle": "xia2000_planar"},
+        "run": {"speed": 20.0, "time_step": 4e-3, "iterations": 1},
+    }
     Draft7Validator(schema).validate(content)
-    for spoiled in ({"modes": {"nodes": "nodes.csv"}}, {**deck, "mass": 1.0}, {"modes": {**deck["modes"], "unit": "mm"}}):
+    for spoiled in (
+        {"modes": {"nodes": "nodes.csv"}},
+        {**deck, "mass": 1.0},
+        {"modes": {**deck["modes"], "unit": "mm"}},
+    ):
         assert not Draft7Validator(schema).is_valid({**content, "deck": spoiled})
         with pytest.raises(rb.InputError):
             rb.Case({**content, "deck": spoiled})
     case = tmp_path / "case.toml"
-    run = '[train]\nvehicle = "xia2000_planar"\n[run]\nspeed = 20.0\ntime_step = 4e-3\niterations = 1\n'
+    run = '[train]\nvehicle = "xia2000_planar"\n[run]\nspeed = 20.0\n'
+    run += "time_step = 4e-3\niterations = 1\n"
     case.write_text(f'[deck]\nfile = "model/deck.toml"\n{run}', encoding="utf-8")
     assert cli.main(["run", str(case), "--out", str(tmp_path / "out")]) == 0
     summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))

@@ -8,7 +8,7 @@ from nodal import ARM, AXIS, NODES, OPTIONS, PAIR, TRACK, TRAIN, answer, line_of
 from opensees import viaduct36_in_mm
 
 import railbridge as rb
-from railbridge.exchange import files as exchange
+from railbridge import exchange
 from railbridge.exchange.loads import export_loads, nodal_loads
 from railbridge.exchange.staggered import begin
 
@@ -22,8 +22,13 @@ def ours():
 def test_nodal_loads_give_our_displacement_in_another_program(ours, couples):
     loads = nodal_loads(ours, line_of(36), couples)
     moved = answer(viaduct36_in_mm(36), loads) * [[[1e-3]], [[1e-3]], [[1.0]]]
-    # The middle of 36 elements is node 19. Twist has some 2 % of its energy in modes that nodal masses shift.
-    for component, name, limit in ((1, "displacement_z", 2e-3), (0, "displacement_y", 5e-3), (2, "rotation_x", 5e-3)):
+    # The middle of 36 elements is node 19. Twist has some 2 % of its energy in modes that nodal
+    # masses shift.
+    for component, name, limit in (
+        (1, "displacement_z", 2e-3),
+        (0, "displacement_y", 5e-3),
+        (2, "rotation_x", 5e-3),
+    ):
         other, own = moved[component, 18], ours.displacement(18.0)[name]
         assert np.max(np.abs(other)) == pytest.approx(np.max(np.abs(own)), rel=limit)
         assert rms(other) == pytest.approx(rms(own), rel=limit)
@@ -38,11 +43,17 @@ def test_nodal_loads_are_statically_equivalent_at_every_instant(line, couples, l
     found = nodal_loads(run, line, couples)
     places = np.stack([np.repeat(line.x, line.y.shape[1]), line.y.ravel(), line.z.ravel()], axis=1)
     force = found.values[:, :3].sum(axis=0)
-    moment = found.values[:, 3:].sum(axis=0) + np.cross(places[:, None], found.values[:, :3].transpose(0, 2, 1)).sum(axis=0).T
+    moment = (
+        found.values[:, 3:].sum(axis=0)
+        + np.cross(places[:, None], found.values[:, :3].transpose(0, 2, 1)).sum(axis=0).T
+    )
     want = np.zeros((6, len(run.time)))
     coupling = run.coupling
     for delay, start, load in zip(
-        coupling.load_delays, coupling.loads.starts, coupling.station_loads(run.passes[0]), strict=True
+        coupling.load_delays,
+        coupling.loads.starts,
+        coupling.station_loads(run.passes[0]),
+        strict=True,
     ):
         window = slice(start, start + load.shape[1])
         x = 20.0 * run.time[window] - delay
@@ -74,7 +85,9 @@ def test_the_load_table_holds_what_was_computed(ours, tmp_path):
 
 def test_loads_follow_the_axes_of_the_model(ours):
     """y up: the model's y is our z, and its z our -y."""
-    nodes = exchange.Nodes(AXIS.nodes, NODES.places[:25], ("m", "t"), np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]))
+    nodes = exchange.Nodes(
+        AXIS.nodes, NODES.places[:25], ("m", "t"), np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    )
     plain = nodal_loads(ours, AXIS).values
     values, unit = nodal_loads(ours, nodes.line()).of_model()
     assert unit == "kN"
@@ -87,7 +100,9 @@ def test_the_abaqus_files_say_the_same(ours, tmp_path):
     loads = export_loads(ours, tmp_path / "rail.inp", AXIS, form="abaqus", instance="DECK-1")
     text = (tmp_path / "rail.inp").read_text(encoding="ascii")
     blocks = dict(re.findall(r"\*AMPLITUDE, NAME=(\w+)\n((?:[^*]+\n)+)", text))
-    functions = {f"RB_{node}_{component + 1}": values for node, component, values in loads.functions()}
+    functions = {
+        f"RB_{node}_{component + 1}": values for node, component, values in loads.functions()
+    }
     assert set(blocks) == set(functions)
     for name in ("RB_13_3", "RB_13_4", "RB_2_5"):
         lines = blocks[name].splitlines()
@@ -95,23 +110,33 @@ def test_the_abaqus_files_say_the_same(ours, tmp_path):
         pairs = np.array(", ".join(lines).split(", "), dtype=float).reshape(-1, 2)
         assert np.all(np.diff(pairs[:, 0]) > 0)
         back = np.interp(loads.time, pairs[:, 0], pairs[:, 1], left=0.0, right=0.0)
-        assert back == pytest.approx(functions[name], rel=1e-7, abs=1e-7 * np.abs(functions[name]).max())
+        assert back == pytest.approx(
+            functions[name], rel=1e-7, abs=1e-7 * np.abs(functions[name]).max()
+        )
     applied = re.findall(
-        r"\*CLOAD, AMPLITUDE=(\w+)\n([\w.-]+), (\d), 1.0\n", (tmp_path / "rail_loads.inp").read_text(encoding="ascii")
+        r"\*CLOAD, AMPLITUDE=(\w+)\n([\w.-]+), (\d), 1.0\n",
+        (tmp_path / "rail_loads.inp").read_text(encoding="ascii"),
     )
     assert {name for name, _, _ in applied} == set(functions)
     assert ("RB_13_3", "DECK-1.13", "3") in applied
     assert max(len(line) for line in text.splitlines()) <= 256
 
 
-SHORT = {"length": 30.0, "bending_stiffness_vertical": 8e10, "mass": 12e3, "damping": {"modal": 0.02}}
+SHORT = {
+    "length": 30.0,
+    "bending_stiffness_vertical": 8e10,
+    "mass": 12e3,
+    "damping": {"modal": 0.02},
+}
 
 
 def test_other_refusals_name_the_field(ours, tmp_path):
     with pytest.raises(rb.InputError, match="line: is missing"):
         nodal_loads(ours)
     with pytest.raises(rb.InputError, match="as long as the deck"):
-        nodal_loads(rb.cross(TRAIN, rb.deck_from_table("d", SHORT), interaction="rigid", speed=20.0), AXIS)
+        nodal_loads(
+            rb.cross(TRAIN, rb.deck_from_table("d", SHORT), interaction="rigid", speed=20.0), AXIS
+        )
     with pytest.raises(rb.InputError, match="form = 'nastran'"):
         export_loads(ours, tmp_path / "x.csv", AXIS, form="nastran")
     with pytest.raises(rb.InputError, match="its folder does not exist"):

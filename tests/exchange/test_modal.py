@@ -19,7 +19,9 @@ def folder(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "rail", [{"y": 3.38, "z": 1.3}, {"left": {"nodes": range(101, 126)}, "right": {"y": 1.42, "z": 1.3}}], ids=["arm", "pair"]
+    "rail",
+    [{"y": 3.38, "z": 1.3}, {"left": {"nodes": range(101, 126)}, "right": {"y": 1.42, "z": 1.3}}],
+    ids=["arm", "pair"],
 )
 def test_nodes_beside_the_axis_move_it_as_a_rigid_section(rail):
     model = read(EXAMPLE)
@@ -27,9 +29,10 @@ def test_nodes_beside_the_axis_move_it_as_a_rigid_section(rail):
     line = model.nodes.line(rail, {"y": 0.0, "z": 0.0})
     off, other = differ(deck_from_modes(model, line), on_axis), 10 * [0.0]
     assert len(other) == len(on_axis.mode_names)
-    # One node has rotations, so the axis follows to round-off of the file; a pair has splines instead.
+    # One node has rotations, so the axis follows to round-off of the file; a pair has splines.
     assert off.max() < (1e-2 if line.paired else 1e-8)
-    # Without `axis` the deck axis is at the rails themselves, which move sideways when the deck twists about an axis below.
+    # Without `axis` the deck axis is at the rails themselves, which move sideways when the deck
+    # twists about an axis below.
     raised = deck_from_modes(model, model.nodes.line(rail))
     twist = raised.mode_names.index("torsion 1") if "torsion 1" in raised.mode_names else 3
     above = raised.shapes(np.array([18.0]))[0, twist]
@@ -42,8 +45,13 @@ def test_displacements_alone_do_where_there_are_no_rotations(folder):
     exact = deck_from_modes(whole, whole.nodes.line({"y": 0.0, "z": 0.0}))
     pair = {"left": {"y": 3.38, "z": 1.3}, "right": {"y": 1.42, "z": 1.3}}
     for edit in (
-        lambda lines: [line if i < 2 else ",".join([*line.split(",")[:7], "0,0,0"]) for i, line in enumerate(lines)],
-        lambda lines: [line if i < 1 else ",".join(line.split(",")[:7]) for i, line in enumerate(lines)],
+        lambda lines: [
+            line if i < 2 else ",".join([*line.split(",")[:7], "0,0,0"])
+            for i, line in enumerate(lines)
+        ],
+        lambda lines: [
+            line if i < 1 else ",".join(line.split(",")[:7]) for i, line in enumerate(lines)
+        ],
     ):
         change(folder / "modes.csv", edit)
         model = read(folder, masses=False)
@@ -72,11 +80,18 @@ def test_what_modes_cannot_give_is_null_and_said():
     deck = rb.deck(EXAMPLE / "deck.toml")
     summary = summarize(crossing(deck, interaction="rigid", iterations=None), [18.0])
     point = summary["points"][0]
-    assert [point[n] for n in ("moment_vertical", "moment_lateral", "torsion", "shear_vertical")] == [None] * 4
+    assert [
+        point[n] for n in ("moment_vertical", "moment_lateral", "torsion", "shear_vertical")
+    ] == [None] * 4
     assert point["displacement_z"]["min"]["value"] < -1e-3
     assert summary["reactions"] == [] and summary["self_weight"]["moment_vertical"] == [None]
     assert "Only modes of this deck are known" in summary["remarks"][0]
-    assert summarize(crossing(rb.deck("viaduct36"), interaction="rigid", iterations=None), [18.0])["remarks"] == []
+    assert (
+        summarize(crossing(rb.deck("viaduct36"), interaction="rigid", iterations=None), [18.0])[
+            "remarks"
+        ]
+        == []
+    )
     with pytest.raises(rb.InputError, match="only its modes are known"):
         crossing(deck, interaction="rigid", iterations=None).section_forces(18.0)
 
@@ -88,5 +103,5 @@ def test_a_rail_that_stands_still_and_damping_that_is_none_are_refused():
         with pytest.raises(rb.InputError, match="damping"):
             deck_from_modes(model, line, damping=damping)
     still = dataclasses.replace(model, shapes=0.0 * model.shapes)
-    with pytest.raises(rb.InputError, match="rail: stands still in every mode"):
+    with pytest.raises(rb.InputError, match="line: stands still in every mode"):
         deck_from_modes(still, line)

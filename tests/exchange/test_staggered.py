@@ -1,4 +1,4 @@
-"""The fixed point with somebody else's deck: loads out, displacements back, against our own iteration."""
+"""The fixed point with somebody else's deck, against our own iteration."""
 
 import re
 
@@ -17,8 +17,21 @@ def ours():
 
 
 def write_motion(path, line, time, moved):
-    rows = np.array([[t, int(label), *moved[:, n, k]] for n, label in enumerate(line.nodes) for k, t in enumerate(time)])
-    np.savetxt(path, rows, delimiter=",", header="time,node,uy,uz,rx", comments="", fmt=["%.9g", "%d", *["%.12g"] * 3])
+    rows = np.array(
+        [
+            [t, int(label), *moved[:, n, k]]
+            for n, label in enumerate(line.nodes)
+            for k, t in enumerate(time)
+        ]
+    )
+    np.savetxt(
+        path,
+        rows,
+        delimiter=",",
+        header="time,node,uy,uz,rx",
+        comments="",
+        fmt=["%.9g", "%d", *["%.12g"] * 3],
+    )
 
 
 # ---- against another program
@@ -39,7 +52,9 @@ def test_the_fixed_point_with_another_program_is_ours(ours, tmp_path):
         # The deck's share of the forces, itself a few per cent of their dynamic part.
         assert rms(added[1::2] - own[1::2]) < 0.015 * rms(own[1::2])
         dynamic = ours.wheel_forces[:, 1] - ours.wheel_forces[:, 1].mean(axis=1, keepdims=True)
-        assert rms(step.wheel_forces[:, 1] - ours.at(iteration).wheel_forces[:, 1]) < 1e-3 * rms(dynamic)
+        assert rms(step.wheel_forces[:, 1] - ours.at(iteration).wheel_forces[:, 1]) < 1e-3 * rms(
+            dynamic
+        )
     assert step.changes[2] < step.changes[0] / 100
 
 
@@ -62,7 +77,9 @@ def test_displacements_of_our_own_deck_give_our_own_next_forces(ours, line):
         added, own = step.passes[-1][0], ours.passes[iteration][0]
         # Velocities come from a spline through 2 ms, places from a spline through 1.5 m.
         assert rms(added[1::2] - own[1::2]) < 5e-3 * rms(own[1::2])
-    assert np.max(np.abs(step.wheel_forces - ours.at(2).wheel_forces)) < 0.01 * np.max(np.abs(ours.passes[2][0]))
+    assert np.max(np.abs(step.wheel_forces - ours.at(2).wheel_forces)) < 0.01 * np.max(
+        np.abs(ours.passes[2][0])
+    )
 
 
 def test_other_instants_and_units_do_not_matter(ours, tmp_path):
@@ -73,21 +90,30 @@ def test_other_instants_and_units_do_not_matter(ours, tmp_path):
     write_motion(tmp_path / "motion.csv", AXIS, motion.time, moved)
     from_file = staggered.next_forces(step, staggered.read_motion(tmp_path / "motion.csv", AXIS))
     assert rms(from_file.passes[1][0] - fine.passes[1][0]) < 1e-6 * rms(fine.passes[1][0])
-    thin = staggered.NodeMotion(motion.time[::2], motion.y[:, ::2], motion.z[:, ::2], motion.roll[:, ::2])
+    thin = staggered.NodeMotion(
+        motion.time[::2], motion.y[:, ::2], motion.z[:, ::2], motion.roll[:, ::2]
+    )
     coarse = staggered.next_forces(step, thin)
-    assert rms(coarse.passes[1][0][1::2] - fine.passes[1][0][1::2]) < 0.02 * rms(fine.passes[1][0][1::2])
+    assert rms(coarse.passes[1][0][1::2] - fine.passes[1][0][1::2]) < 0.02 * rms(
+        fine.passes[1][0][1::2]
+    )
 
 
 def test_relaxation_takes_a_share(ours):
     step = staggered.begin(TRAIN, TRACK, AXIS, **OPTIONS)
     motion = motion_of(ours.at(0), AXIS)
-    whole, half = staggered.next_forces(step, motion), staggered.next_forces(step, motion, share=0.5)
+    whole, half = (
+        staggered.next_forces(step, motion),
+        staggered.next_forces(step, motion, share=0.5),
+    )
     assert half.passes[1][0] == pytest.approx(0.5 * whole.passes[1][0])
     assert half.changes == whole.changes
 
 
 def test_the_equivalent_irregularity_is_track_plus_deck(ours):
-    step = staggered.next_forces(staggered.begin(TRAIN, TRACK, AXIS, **OPTIONS), motion_of(ours.at(0), AXIS))
+    step = staggered.next_forces(
+        staggered.begin(TRAIN, TRACK, AXIS, **OPTIONS), motion_of(ours.at(0), AXIS)
+    )
     met = staggered.equivalent_irregularity(step, car=1, wheel=3)
     wheel = TRAIN.wheels[2]
     assert (wheel.number, wheel.side) == (3, "left")
@@ -109,8 +135,12 @@ def test_histories_that_cannot_be_used_are_refused(ours, tmp_path):
     step = staggered.begin(TRAIN, TRACK, AXIS, **OPTIONS)
     good = motion_of(ours.at(0), AXIS)
     spoiled = {
-        "must cover the crossing": staggered.NodeMotion(good.time[:500], good.y[:, :500], good.z[:, :500], good.roll[:, :500]),
-        "is not at rest at the start": staggered.NodeMotion(good.time, good.y, good.z - 0.03, good.roll),
+        "must cover the crossing": staggered.NodeMotion(
+            good.time[:500], good.y[:, :500], good.z[:, :500], good.roll[:, :500]
+        ),
+        "is not at rest at the start": staggered.NodeMotion(
+            good.time, good.y, good.z - 0.03, good.roll
+        ),
         "must be finite": staggered.NodeMotion(good.time, good.y, good.z * np.nan, good.roll),
         "must have 25 nodes": staggered.NodeMotion(good.time, good.y, good.z[:20], good.roll),
         "must ascend": staggered.NodeMotion(good.time[::-1], good.y, good.z, good.roll),
@@ -119,23 +149,33 @@ def test_histories_that_cannot_be_used_are_refused(ours, tmp_path):
         with pytest.raises(rb.InputError, match=message):
             staggered.next_forces(step, motion)
     with pytest.warns(UserWarning, match="are the units right"):
-        staggered.next_forces(step, staggered.NodeMotion(good.time, 1e3 * good.y, 1e3 * good.z, 1e3 * good.roll))
+        staggered.next_forces(
+            step, staggered.NodeMotion(good.time, 1e3 * good.y, 1e3 * good.z, 1e3 * good.roll)
+        )
     path = tmp_path / "motion.csv"
     moved, instants = np.array([good.y, good.z, good.roll])[:, :, ::50], good.time[::50]
     for edit, message in [
-        (lambda lines: [x for x in lines if x.split(",")[1] != "7"], "node = '7': of the rail line is missing"),
+        (
+            lambda lines: [x for x in lines if x.split(",")[1] != "7"],
+            "node = '7': of the rail line is missing",
+        ),
         (lambda lines: lines[:-1], "node 25: has not the instants of node 1"),
-        (lambda lines: [",".join(x.split(",")[:3]) for x in lines], "column uz: is missing: the vertical displacement"),
+        (
+            lambda lines: [",".join(x.split(",")[:3]) for x in lines],
+            "column uz: is missing: the vertical displacement",
+        ),
         (lambda lines: [lines[0], lines[1] + "x", *lines[2:]], "line 2: rx"),
     ]:
         write_motion(path, AXIS, instants, moved)
-        path.write_text("\n".join(edit(path.read_text(encoding="utf-8").splitlines())), encoding="utf-8")
+        path.write_text(
+            "\n".join(edit(path.read_text(encoding="utf-8").splitlines())), encoding="utf-8"
+        )
         with pytest.raises(rb.InputError, match=re.escape(message)):
             staggered.read_motion(path, AXIS)
 
 
 def test_other_refusals_name_the_field():
-    with pytest.raises(rb.InputError, match="run.tolerance: unknown key"):
+    with pytest.raises(rb.InputError, match="^tolerance: unknown key"):
         staggered.begin(TRAIN, TRACK, AXIS, speed=20.0, tolerance=1e-3)
     step = staggered.begin(TRAIN, TRACK, AXIS, **OPTIONS)
     with pytest.raises(rb.InputError, match="wheel"):

@@ -1,7 +1,10 @@
-"""OpenSeesPy as somebody else's program: a deck of its own beam elements, its modes, and its answer to load histories.
+"""OpenSeesPy as somebody else's program: a deck of its own beam elements.
 
-OpenSeesPy stands in the test group only, since its licence restricts redistribution. It brings its Fortran libraries along
-but does not say where they are; loaded here first, it finds them on any system.
+It gives the deck's modes and its answer to load histories.
+
+OpenSeesPy stands in the test group only, since its licence restricts redistribution. It brings its
+Fortran libraries along but does not say where they are; loaded here first, it finds them on any
+system.
 """
 
 import ctypes
@@ -13,15 +16,21 @@ import pytest
 
 
 def load():
-    """Return the module ``openseespy.opensees``, or skip the test with the reason why it cannot be loaded."""
+    """Return the module ``openseespy.opensees``, or skip the test and say why it is not there."""
     bundle = importlib.util.find_spec("openseespylinux")
-    waiting = sorted(Path(bundle.submodule_search_locations[0]).glob("lib/*.so*")) if bundle is not None else []
+    waiting = (
+        sorted(Path(bundle.submodule_search_locations[0]).glob("lib/*.so*"))
+        if bundle is not None
+        else []
+    )
     while waiting:
         failed = [path for path in waiting if not loaded(path)]
         if len(failed) == len(waiting):
             break  # what is left needs something the system does not have
         waiting = failed
-    return pytest.importorskip("openseespy.opensees", reason="OpenSeesPy cannot be loaded here", exc_type=Exception)
+    return pytest.importorskip(
+        "openseespy.opensees", reason="OpenSeesPy cannot be loaded here", exc_type=Exception
+    )
 
 
 def loaded(path):
@@ -33,12 +42,26 @@ def loaded(path):
 
 
 class BeamDeck:
-    """A straight deck of elastic 3D beam elements on two bearing lines, in any consistent set of units.
+    """A straight deck of elastic 3D beam elements on two bearing lines.
 
-    x runs along the deck, y to the left, z up. Forces, lengths and masses are those of the numbers given.
+    x runs along the deck, y to the left, z up. Any consistent set of units will do: forces, lengths
+    and masses are those of the numbers given.
     """
 
-    def __init__(self, length, elements, e, g, area, inertia_y, inertia_z, torsion, mass, polar_inertia, damping=(0.0, 0.0)):
+    def __init__(
+        self,
+        length,
+        elements,
+        e,
+        g,
+        area,
+        inertia_y,
+        inertia_z,
+        torsion,
+        mass,
+        polar_inertia,
+        damping=(0.0, 0.0),
+    ):
         self.ops, self.elements = load(), elements
         self.x = np.linspace(0.0, length, elements + 1)
         self.section = (area, e, g, torsion, inertia_y, inertia_z)
@@ -59,7 +82,9 @@ class BeamDeck:
         area, e, g, torsion, inertia_y, inertia_z = self.section
         for i in range(1, self.elements + 1):
             # The local y axis is the model's z, so its bending inertias change places.
-            ops.element("elasticBeamColumn", i, i, i + 1, area, e, g, torsion, inertia_z, inertia_y, 1)
+            ops.element(
+                "elasticBeamColumn", i, i, i + 1, area, e, g, torsion, inertia_z, inertia_y, 1
+            )
         ops.fix(1, 1, 1, 1, 1, 0, 0)
         ops.fix(len(self.x), 0, 1, 1, 1, 0, 0)
         return ops
@@ -68,7 +93,10 @@ class BeamDeck:
         """Frequencies (Hz) and shapes, shape (modes, nodes, 6), mass-normalised."""
         ops = self.build()
         squares = np.array(ops.eigen(count))
-        shapes = [[ops.nodeEigenvector(n, m) for n in range(1, len(self.x) + 1)] for m in range(1, count + 1)]
+        shapes = [
+            [ops.nodeEigenvector(n, m) for n in range(1, len(self.x) + 1)]
+            for m in range(1, count + 1)
+        ]
         return np.sqrt(squares) / (2 * np.pi), np.array(shapes)
 
     def masses(self):
@@ -78,8 +106,9 @@ class BeamDeck:
         return np.outer(share, [self.mass, self.polar_inertia])
 
     def respond(self, time, functions):
-        """Displacements uy, uz, rx of all nodes under load functions, shape (3, nodes, instants); Newmark at the step of `time`.
+        """Displacements uy, uz, rx of all nodes under load functions, shape (3, nodes, instants).
 
+        By Newmark's method at the step of `time`.
         `functions` holds (node, component 0 to 5, values at `time`).
         """
         ops = self.build()
@@ -111,7 +140,10 @@ class BeamDeck:
 
 
 RAILS = ((100, 3380.0, 1300.0), (200, 1420.0, 1300.0))
-"""Rail nodes of the example: offset of their numbers, y and z from the axis, mm; the left track, 2.4 m off the axis."""
+"""Rail nodes of the example, of the left track, 2.4 m off the axis.
+
+Offset of their numbers, y and z from the axis, mm.
+"""
 
 
 def viaduct36_in_mm(elements=24):
@@ -119,14 +151,24 @@ def viaduct36_in_mm(elements=24):
     e, f1, f2 = 35e3, 2 * np.pi * 3.307, 2 * np.pi * 16.30
     damping = 2 * 0.03 * f1 * f2 / (f1 + f2), 2 * 0.03 / (f1 + f2)
     inertia_y, inertia_z, density = 2.553e12, 25.53e12, 2.5e-9
-    properties = (e, e / 2.4, 4.8e6, inertia_y, inertia_z, 5.59e12, density * 4.8e6, density * (inertia_y + inertia_z))
+    properties = (
+        e,
+        e / 2.4,
+        4.8e6,
+        inertia_y,
+        inertia_z,
+        5.59e12,
+        density * 4.8e6,
+        density * (inertia_y + inertia_z),
+    )
     return BeamDeck(36e3, elements, *properties, damping)
 
 
 def example_tables(modes=10):
-    """The shipped example data/exchange/viaduct36_mm: {file name: header and rows} of numbers, axis nodes and rail nodes.
+    """The shipped example data/exchange/viaduct36_mm: {file name: header and rows of numbers}.
 
-    Rail nodes move with the axis as on rigid arms, u + theta x r.
+    Nodes stand on the axis and under the rails. Rail nodes move with the axis as on rigid arms,
+    u + theta x r.
     """
     deck = viaduct36_in_mm()
     frequencies, shapes = deck.modes(modes)
@@ -137,7 +179,9 @@ def example_tables(modes=10):
         for i, (x, own) in enumerate(zip(deck.x, deck.masses(), strict=True), start=1):
             nodes.append([first + i, x, y, z])
             masses.append([first + i, *(own if first == 0 else (0.0, 0.0))])
-    for m, (f, ratio, shape) in enumerate(zip(frequencies, alpha / (2 * omega) + beta * omega / 2, shapes, strict=True), 1):
+    for m, (f, ratio, shape) in enumerate(
+        zip(frequencies, alpha / (2 * omega) + beta * omega / 2, shapes, strict=True), 1
+    ):
         shape = shape * np.sign(shape.flat[np.argmax(np.abs(shape[:, :3]))] or 1.0)
         for first, y, z in ((0, 0.0, 0.0), *RAILS):
             moved = shape.copy()
@@ -154,4 +198,6 @@ def write_example(folder):
     """Write the tables of the shipped example."""
     for name, (header, rows) in example_tables().items():
         lines = [",".join(f"{v:.9g}" if abs(v) > 1e-15 else "0" for v in row) for row in rows]
-        (folder / name).write_text("\n".join(["# units: mm, t", header, *lines]) + "\n", encoding="utf-8")
+        (folder / name).write_text(
+            "\n".join(["# units: mm, t", header, *lines]) + "\n", encoding="utf-8"
+        )

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 import os
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError, did_you_mean
+from ..errors import InputError, did_you_mean, within
+from ..exchange.tables import read_columns
 from ..units import quantity
 
 __all__ = ["data_file", "data_names", "data_root", "read_parameters", "read_toml"]
@@ -102,7 +102,7 @@ def read_parameters(path: Path, expected: Mapping[str, str]) -> dict[str, float]
     Parameters
     ----------
     path : Path
-        A CSV file, UTF-8, comma separated.
+        A CSV file; see `read_columns`.
     expected : mapping
         Names that must be there, each with its SI unit. Nothing else may be there.
 
@@ -118,48 +118,19 @@ def read_parameters(path: Path, expected: Mapping[str, str]) -> dict[str, float]
         number.
     """
     columns = ["symbol", "name", "value", "unit", "source", "note"]
-    where = path.name
-    try:
-        rows = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
-    except (UnicodeDecodeError, csv.Error, OSError) as error:
-        raise InputError(
-            where, None, f"is not a readable CSV file ({error})", "Save it as UTF-8 text"
-        ) from None
-    rows = [r for r in rows if r and any(cell.strip() for cell in r)]
-    header = [h.strip() for h in rows[0]] if rows else []
-    for column in header:
-        if header.count(column) > 1:
-            raise InputError(f"{where}: column {column}", None, "appears more than once")
-        if column not in columns:
-            raise InputError(
-                f"{where}: column {column}", None, "unknown column", did_you_mean(column, columns)
-            )
-    for column in columns:
-        if column not in header:
-            raise InputError(
-                f"{where}: column {column}", None, "is missing", "Columns: " + ",".join(columns)
-            )
+    table = read_columns(path, columns, may_be_empty=True)
+    cells = zip(*(table.cells[c] for c in ("name", "value", "unit")), strict=True)
     result: dict[str, float] = {}
-    for line, row in enumerate(rows[1:], start=2):
-        if len(row) != len(header):
-            raise InputError(
-                f"{where}: row {line}",
-                ",".join(row),
-                f"must have {len(header)} cells, it has {len(row)}",
-                "Put cells that contain a comma between double quotes",
-            )
-        cells = dict(zip(header, (c.strip() for c in row), strict=True))
-        name = cells["name"]
-        if name not in expected:
-            raise InputError(
-                f"{where}: row {name}", None, "unknown parameter", did_you_mean(name, expected)
-            )
-        if name in result:
-            raise InputError(f"{where}: row {name}", None, "appears more than once")
-        result[name] = quantity(f"{where}: {name}", cells["value"], cells["unit"], expected[name])
-    missing = [name for name in expected if name not in result]
-    if missing:
-        raise InputError(
-            f"{where}: row {missing[0]}", None, "is missing", "Rows missing: " + ", ".join(missing)
-        )
+    with within(source=table.name):
+        for line, (name, value, unit) in zip(table.lines, cells, strict=True):
+            row = f"line {line}: row {name}"
+            if name not in expected:
+                raise InputError(row, None, "unknown parameter", did_you_mean(name, expected))
+            if name in result:
+                raise InputError(row, None, "appears more than once", "Remove one of the rows")
+            result[name] = quantity(f"line {line}: {name}", value, unit, expected[name])
+        missing = [name for name in expected if name not in result]
+        if missing:
+            remedy = "Rows missing: " + ", ".join(missing)
+            raise InputError(f"row {missing[0]}", None, "is missing", remedy)
     return result

@@ -1,34 +1,52 @@
 r"""Loads of a crossing on the nodes of another program's model: time functions, and files of them.
 
-A load at x between two nodes acts through the shapes that a beam element has there. With couples (beam models) these are
-Hermite's cubics, so that the nodes' forces and couples do the same work on the element as the load itself; without (solid
-and shell models) forces follow the lever rule. Both are statically equivalent: same force, same moment, at every instant.
-The moment about x of loads off the axis goes with the lever rule as a couple, or as a pair of forces where a left and a right
+A load at x between two nodes acts through the shapes that a beam element has there. With couples
+(beam models) these are Hermite's cubics, so that the nodes' forces and couples do the same work on
+the element as the load itself; without (solid and shell models) forces follow the lever rule. Both
+are statically equivalent: same force, same moment, at every instant. The moment about x of loads
+off the axis goes with the lever rule as a couple, or as a pair of forces where a left and a right
 line of nodes carry the rail.
 """
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 import numpy as np
 
 from .. import errors
+from ..coupling import Coupling
 from ..errors import InputError
-from .nodes import MASSES, PER_METRE, RailLine
-
-if TYPE_CHECKING:
-    from ..results import Crossing
-    from .staggered import Staggered
+from ..units import MASSES, PER_METRE
+from .nodes import RailLine
 
 __all__ = ["FORMATS", "NodalLoads", "export_loads", "nodal_loads"]
 
 FORMATS = ("csv", "abaqus")
 _COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
+_FORCE_UNITS = {("m", "kg"): "N", ("mm", "t"): "N", ("m", "t"): "kN"}
+"""Names of the unit of force of consistent sets, by their units of length and mass."""
+
+
+class Run(Protocol):
+    """A crossing, or a run in two programs: what its loads are made of.
+
+    Attributes
+    ----------
+    coupling : Coupling
+    passes : sequence
+        Wheel forces of every pass, each as `Coupling.station_loads` takes them.
+    shown : int
+        The pass whose loads are wanted.
+    """
+
+    coupling: Coupling
+    passes: Sequence[Any]
+    shown: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +59,8 @@ class NodalLoads:
     time : ndarray, shape (t,)
         s.
     values : ndarray, shape (nodes, 6, t)
-        force_x, force_y, force_z (N), moment_x, moment_y, moment_z (N m) on the deck, in our axes; nodes as in ``line.nodes``.
+        force_x, force_y, force_z (N), moment_x, moment_y, moment_z (N m) on the deck, in our axes;
+        nodes as in ``line.nodes``.
     """
 
     line: RailLine
@@ -49,17 +68,24 @@ class NodalLoads:
     values: np.ndarray
 
     def of_model(self) -> tuple[np.ndarray, str]:
-        """Return the loads in the axes and units of the model, and the name of its unit of moments."""
+        """Return the loads in the axes and units of the model, and the name of its unit of force.
+
+        Moments are in that unit times the model's unit of length.
+        """
         length, mass = self.line.units
         # A consistent set has mass times length per second squared as its force.
         force = PER_METRE[length] / MASSES[mass]
-        turned = np.einsum("ji,njt->nit", self.line.turn, self.values[:, :3]) * force
-        couples = np.einsum("ji,njt->nit", self.line.turn, self.values[:, 3:]) * force * PER_METRE[length]
-        name = {("m", "kg"): "N", ("mm", "t"): "N", ("m", "t"): "kN"}.get((length, mass), f"{mass} {length}/s2")
-        return np.concatenate([turned, couples], axis=1), name
+        turn = self.line.turn
+        forces = np.einsum("ji,njt->nit", turn, self.values[:, :3]) * force
+        couples = np.einsum("ji,njt->nit", turn, self.values[:, 3:]) * force * PER_METRE[length]
+        name = _FORCE_UNITS.get((length, mass), f"{mass} {length}/s2")
+        return np.concatenate([forces, couples], axis=1), name
 
     def functions(self) -> Iterator[tuple[str, int, np.ndarray]]:
-        """Yield node, component (0 to 5) and time function, in the model's axes and units, of every one that is not zero."""
+        """Yield node, component (0 to 5) and time function of every function that is not zero.
+
+        In the model's axes and units.
+        """
         values, _ = self.of_model()
         least = 1e-12 * np.abs(values).max(initial=0.0)
         for label, own in zip(self.line.nodes, values, strict=True):
@@ -68,25 +94,35 @@ class NodalLoads:
                     yield label, component, function
 
 
-def nodal_loads(run: Staggered | Crossing, line: RailLine | None = None, couples: bool | None = None) -> NodalLoads:
-    """Return the loads of a crossing, statically equivalent at every instant, on the nodes of a line.
+def nodal_loads(run: Run, line: RailLine | None = None, couples: bool | None = None) -> NodalLoads:
+    """Return the loads of a crossing on the nodes of a line.
+
+    They are statically equivalent at every instant.
 
     Parameters
     ----------
     run : Staggered or Crossing
-        The loads are those of the pass shown, the moving weight of the train included, the deck's own weight not.
+        The loads are those of the pass shown, the moving weight of the train included, the deck's
+        own weight not.
     line : RailLine, optional
         Where they go; needed for a `Crossing`, whose deck must be as long.
     couples : bool, optional
         Whether nodes can take couples; default for a single line, not for a left and a right one.
+
+    Raises
+    ------
+    InputError
+        No line, or one of another length than the deck.
     """
     # Only a staggered run knows its nodes.
     line = getattr(run, "line", None) if line is None else line
     if line is None:
-        raise InputError("line", None, "is missing", "Give the nodes: read_nodes('nodes.csv').line()")
+        remedy = "Give the nodes: read_nodes('nodes.csv').line()"
+        raise InputError("line", None, "is missing", remedy)
     coupling = run.coupling
     if abs(line.length - coupling.deck.length) > 1e-4 * line.length:
-        raise InputError("line", line.length, f"must be as long as the deck, {coupling.deck.length:g} m")
+        allowed = f"must be as long as the deck, {coupling.deck.length:g} m"
+        raise InputError("line", line.length, allowed, "Choose nodes from end to end of the deck")
     couples = not line.paired if couples is None else errors.boolean("couples", couples)
     axis = np.zeros((len(line.x), 5, len(coupling.time)))
     loads = coupling.station_loads(run.passes[run.shown])
@@ -97,9 +133,17 @@ def nodal_loads(run: Staggered | Crossing, line: RailLine | None = None, couples
     return NodalLoads(line, coupling.time, _to_nodes(line, axis))
 
 
-def _distribute(axis: np.ndarray, nodes: np.ndarray, x: np.ndarray, samples: np.ndarray, load: np.ndarray, couples: bool) -> None:
+def _distribute(
+    axis: np.ndarray,
+    nodes: np.ndarray,
+    x: np.ndarray,
+    samples: np.ndarray,
+    load: np.ndarray,
+    couples: bool,
+) -> None:
     """Add one moving load, shape (3 or 5, count), to the loads at the axis, shape (n, 5, t)."""
-    force_y, force_z, moment_x, moment_y, moment_z = np.concatenate([load, np.zeros((5 - len(load), load.shape[1]))])
+    load = np.concatenate([load, np.zeros((5 - len(load), load.shape[1]))])
+    force_y, force_z, moment_x, moment_y, moment_z = load
     e = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, len(nodes) - 2)
     h = np.diff(nodes)[e]
     s = (x - nodes[e]) / h
@@ -110,14 +154,16 @@ def _distribute(axis: np.ndarray, nodes: np.ndarray, x: np.ndarray, samples: np.
             axis[node, 0, samples] += share * force_y + rate * moment_z
             axis[node, 1, samples] += share * force_z - rate * moment_y
     if couples:
-        value = (1 - 3 * s**2 + 2 * s**3, 3 * s**2 - 2 * s**3), (h * (s - 2 * s**2 + s**3), h * (s**3 - s**2))
+        # Hermite's cubics for a displacement and for a slope of each end, and their derivatives.
+        moved = 1 - 3 * s**2 + 2 * s**3, 3 * s**2 - 2 * s**3
+        turned = h * (s - 2 * s**2 + s**3), h * (s**3 - s**2)
         rise = (6 * s**2 - 6 * s) / h
-        slope = (rise, -rise), (1 - 4 * s + 3 * s**2, 3 * s**2 - 2 * s)
+        moved_rate, turned_rate = (rise, -rise), (1 - 4 * s + 3 * s**2, 3 * s**2 - 2 * s)
         for i, node in enumerate((e, e + 1)):
-            axis[node, 0, samples] += value[0][i] * force_y + slope[0][i] * moment_z
-            axis[node, 1, samples] += value[0][i] * force_z - slope[0][i] * moment_y
-            axis[node, 3, samples] += -value[1][i] * force_z + slope[1][i] * moment_y
-            axis[node, 4, samples] += value[1][i] * force_y + slope[1][i] * moment_z
+            axis[node, 0, samples] += moved[i] * force_y + moved_rate[i] * moment_z
+            axis[node, 1, samples] += moved[i] * force_z - moved_rate[i] * moment_y
+            axis[node, 3, samples] += -turned[i] * force_z + turned_rate[i] * moment_y
+            axis[node, 4, samples] += turned[i] * force_y + turned_rate[i] * moment_z
 
 
 def _to_nodes(line: RailLine, axis: np.ndarray) -> np.ndarray:
@@ -131,7 +177,8 @@ def _to_nodes(line: RailLine, axis: np.ndarray) -> np.ndarray:
         left, right = line.y[:, 0, None], line.y[:, 1, None]
         for i, (other, sign) in enumerate(((right, 1.0), (left, -1.0))):
             vertical = sign * (moment_x - other * force_z) / (left - right)
-            result[:, i, 1:] = np.stack([force_y / 2, vertical, 0.0 * force_y, moment_y / 2, moment_z / 2], axis=1)
+            halves = [force_y / 2, vertical, 0.0 * force_y, moment_y / 2, moment_z / 2]
+            result[:, i, 1:] = np.stack(halves, axis=1)
     else:
         moment_x = moment_x - line.y * force_z
         result[:, 0, 1:] = np.stack([force_y, force_z, moment_x, moment_y, moment_z], axis=1)
@@ -139,7 +186,7 @@ def _to_nodes(line: RailLine, axis: np.ndarray) -> np.ndarray:
 
 
 def export_loads(
-    run: Staggered | Crossing,
+    run: Run,
     path: str | Path,
     line: RailLine | None = None,
     *,
@@ -148,7 +195,9 @@ def export_loads(
     every: int = 1,
     instance: str = "",
 ) -> NodalLoads:
-    """Write the load histories of the nodes to a file, in the axes and units of their model; return them.
+    """Write the load histories of the nodes to a file, and return them.
+
+    The file is in the axes and units of the model, what is returned in ours.
 
     Parameters
     ----------
@@ -156,10 +205,11 @@ def export_loads(
         See `nodal_loads`.
     path : str or Path
     form : {"csv", "abaqus"}
-        ``csv``: first column ``t (s)``, then ``node 12 force_z (N)`` and so on, one column for each function that is not zero.
-        ``abaqus``: an include file with an ``*AMPLITUDE`` for every function in step time, and ``*CLOAD`` lines that use them;
-        CalculiX reads the same. The amplitudes stand above the first ``*STEP``, the loads inside it: two files,
-        ``NAME.inp`` and ``NAME_loads.inp``.
+        ``csv``: first column ``t (s)``, then ``node 12 force_z (N)`` and so on, one column for each
+        function that is not zero. ``abaqus``: an include file with an ``*AMPLITUDE`` for every
+        function in step time, and ``*CLOAD`` lines that use them; CalculiX reads the same. The
+        amplitudes stand above the first ``*STEP``, the loads inside it: two files, ``NAME.inp`` and
+        ``NAME_loads.inp``.
     every : int
         Write every k-th instant only.
     instance : str
@@ -187,8 +237,10 @@ def export_loads(
 def _write_csv(loads: NodalLoads, path: Path) -> None:
     unit = loads.of_model()[1]
     functions = list(loads.functions())
-    units = [unit if c < 3 else f"{unit} {loads.line.units[0]}" for _, c, _ in functions]
-    header = ["t (s)", *[f"node {n} {_COMPONENTS[c]} ({u})" for (n, c, _), u in zip(functions, units, strict=True)]]
+    header = ["t (s)"]
+    for node, component, _ in functions:
+        own = unit if component < 3 else f"{unit} {loads.line.units[0]}"
+        header.append(f"node {node} {_COMPONENTS[component]} ({own})")
     table = np.array([loads.time, *[f for _, _, f in functions]]).T
     with path.open("w", encoding="utf-8", newline="") as file:
         csv.writer(file, lineterminator="\n").writerow(header)
@@ -197,20 +249,25 @@ def _write_csv(loads: NodalLoads, path: Path) -> None:
 
 def _write_abaqus(loads: NodalLoads, path: Path, prefix: str) -> None:
     unit, (length, mass) = loads.of_model()[1], loads.line.units
-    said = f"** railbridge: forces in {unit}, couples in {unit} {length}, for a model in {length}, {mass}, s\n"
-    said += "** step time 0: the first axle is at the first node\n"
-    amplitudes, cloads = [said], [said]
+    head = f"** railbridge: forces in {unit}, couples in {unit} {length}"
+    head += f", for a model in {length}, {mass}, s\n"
+    head += "** step time 0: the first axle is at the first node\n"
+    amplitudes, cloads = [head], [head]
     for label, component, function in loads.functions():
         name = f"RB_{''.join(c if c.isalnum() else '_' for c in label)}_{component + 1}"
         amplitudes.append(f"*AMPLITUDE, NAME={name}\n{_pairs(loads.time, function)}")
         cloads.append(f"*CLOAD, AMPLITUDE={name}\n{prefix}{label}, {component + 1}, 1.0\n")
-    path.write_text("".join(amplitudes), encoding="ascii", newline="\n")
-    path.with_name(f"{path.stem}_loads{path.suffix}").write_text("".join(cloads), encoding="ascii", newline="\n")
+    other = path.with_name(f"{path.stem}_loads{path.suffix}")
+    for file, lines in ((path, amplitudes), (other, cloads)):
+        file.write_text("".join(lines), encoding="ascii", newline="\n")
 
 
 def _pairs(time: np.ndarray, function: np.ndarray) -> str:
-    """Return time and value in pairs, four pairs a line, zeros before and after the load left out but for one."""
-    there = np.flatnonzero(function)
-    first, last = max(there[0] - 1, 0), min(there[-1] + 2, len(time))
-    pairs = [f"{t:.9g}, {f:.9g}" for t, f in zip(time[first:last], function[first:last], strict=True)]
+    """Return time and value in pairs, four pairs a line.
+
+    Zeros before and after the load are left out but for one.
+    """
+    loaded = np.flatnonzero(function)
+    own = slice(max(loaded[0] - 1, 0), min(loaded[-1] + 2, len(time)))
+    pairs = [f"{t:.9g}, {f:.9g}" for t, f in zip(time[own], function[own], strict=True)]
     return "".join(", ".join(pairs[i : i + 4]) + "\n" for i in range(0, len(pairs), 4))

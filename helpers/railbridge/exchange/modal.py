@@ -1,19 +1,22 @@
-r"""A deck of which only the modes are known: another program's, at nodes, and what they make of it under the rail.
+r"""A deck of which only the modes are known: those of another program's model, under the rail.
 
 A line of nodes carries the rail; at each of its places the deck axis moves
 
-* with one node, as on a rigid arm: v = uy + z rx, w = uz - y rx, twist rx, for a node at (y, z) from the axis;
-* with a left and a right node, as in solid and shell models: twist is the difference of uz over their distance, w lies on
-  the straight line through both uz, v is the mean of uy moved by the twist.
+* with one node, as on a rigid arm: v = uy + z rx, w = uz - y rx, twist rx, for a node at (y, z)
+  from the axis;
+* with a left and a right node, as in solid and shell models: twist is the difference of uz over
+  their distance, w lies on the straight line through both uz, v is the mean of uy moved by the
+  twist.
 
-A single line without rx makes the deck rigid in twist. Between the places v and w are cubic: Hermite's with w' = -ry and
-v' = rz where a single line has rotations (those of the cross-section), otherwise splines through the displacements. Twist is a
-parabola through places 1-2-3, 3-4-5 and so on (a last single piece takes the last three), or a spline from a pair of lines.
-Only where the file of nodes says ``# pieces: cubic`` all three are cubics through places 1-2-3-4, 4-5-6-7 and so on; that
-is how `exchange` writes a deck, so that it comes back exactly.
+A single line without rx makes the deck rigid in twist. Between the places v and w are cubic:
+Hermite's with w' = -ry and v' = rz where a single line has rotations (those of the cross-section),
+otherwise splines through the displacements. Twist is a parabola through places 1-2-3, 3-4-5 and so
+on (a last single piece takes the last three), or a spline from a pair of lines. Only where the file
+of nodes says ``# pieces: cubic`` all three are cubics through places 1-2-3-4, 4-5-6-7 and so on;
+that is how `export_modes` writes a deck, so that it comes back exactly.
 
-Modes alone give no section forces, reactions or self-weight (`Deck.recovery` is None), and their sum lacks the static
-flexibility of the modes left out.
+Modes alone give no section forces, reactions or self-weight (`Deck.recovery` is None), and their
+sum lacks the static flexibility of the modes left out.
 """
 
 from __future__ import annotations
@@ -29,12 +32,16 @@ from .. import errors
 from ..decks import Deck, rayleigh_ratio
 from ..errors import InputError
 from ..guideways import PiecewiseCubic
-from .nodes import Nodes, RailLine, cubics, hermite, parabolas, spline
+from .interpolation import cubics, hermite, parabolas, spline
+from .nodes import Nodes, RailLine
 
 __all__ = ["ModalModel", "Orthogonality", "deck_from_modes"]
 
 _LIKELY_MASS = 100.0, 300e3
-"""Mass per metre of decks, kg/m: foot bridges to ballasted concrete with several tracks, with room to spare."""
+"""Mass per metre of decks, kg/m, with room to spare.
+
+From foot bridges to ballasted concrete with several tracks.
+"""
 
 
 @dataclass(frozen=True)
@@ -44,7 +51,8 @@ class Orthogonality:
     Attributes
     ----------
     worst : float
-        Largest of abs(phi_i M phi_j) / sqrt((phi_i M phi_i) (phi_j M phi_j)); zero for exact modes.
+        Largest of abs(phi_i M phi_j) / sqrt((phi_i M phi_i) (phi_j M phi_j)); zero for exact
+        modes.
     pair : tuple of str
         The modes it stands between.
     known_masses : bool
@@ -75,7 +83,8 @@ class ModalModel:
     names : tuple of str, or None
         Column ``name``.
     shapes : ndarray, shape (m, n, 6)
-        Mass-normalised ux, uy, uz, rx, ry, rz (1/sqrt(kg), 1/(m sqrt(kg))); NaN at nodes that the modes leave out.
+        Mass-normalised ux, uy, uz, rx, ry, rz (1/sqrt(kg), 1/(m sqrt(kg))); NaN at nodes that the
+        modes leave out.
     rotations : tuple of bool
         Whether rx, ry, rz are known.
     masses : ndarray, shape (n, 4), or None
@@ -101,11 +110,16 @@ class ModalModel:
     def orthogonality(self) -> Orthogonality:
         """Compare every two modes over the nodal masses, or over equal masses where none are known.
 
-        Wrong when: without masses on meshes of uneven density, where true modes may overlap by tens of per cent.
+        Wrong when: without masses on meshes of uneven density, where true modes may overlap by tens
+        of per cent.
         """
         there = np.isfinite(self.shapes[0, :, 0])
-        masses = self.masses[there] if self.masses is not None else np.ones((there.sum(), 1)) * [1.0, 0.0, 0.0, 0.0]
-        weights = np.sqrt(np.concatenate([np.repeat(masses[:, :1], 3, axis=1), masses[:, 1:]], axis=1))
+        if self.masses is None:
+            masses = np.ones((there.sum(), 1)) * [1.0, 0.0, 0.0, 0.0]
+        else:
+            masses = self.masses[there]
+        translations = np.repeat(masses[:, :1], 3, axis=1)
+        weights = np.sqrt(np.concatenate([translations, masses[:, 1:]], axis=1))
         # Weighted by the roots first: small entries then do not vanish beside large ones.
         weighted = (self.shapes[:, there] * weights).reshape(len(self.labels), -1)
         gram = weighted @ weighted.T
@@ -115,9 +129,9 @@ class ModalModel:
         size = np.sqrt(np.where(moving, own, np.inf))
         overlap = np.abs(np.triu(gram / np.outer(size, size), 1))
         i, j = np.unravel_index(np.argmax(overlap), overlap.shape)
-        known = self.masses is not None
+        pair, known = (self.labels[i], self.labels[j]), self.masses is not None
         return Orthogonality(
-            float(overlap[i, j]), (self.labels[i], self.labels[j]), known, own if known else np.full_like(own, np.nan)
+            float(overlap[i, j]), pair, known, own if known else np.full_like(own, np.nan)
         )
 
 
@@ -154,21 +168,24 @@ def deck_from_modes(
     Raises
     ------
     InputError
-        Rail nodes that the modes leave out, no damping, or a first frequency or mass per metre so far from those of bridges that
-        the units must be wrong.
+        Rail nodes that the modes leave out, no damping, or a first frequency or mass per metre so
+        far from those of bridges that the units must be wrong.
     """
     place = {label: i for i, label in enumerate(model.nodes.labels)}
     index = np.array([[place[label] for label in pair] for pair in line.labels])
     shapes = model.shapes[:, index]
     for i, j in np.argwhere(~np.isfinite(shapes[0, :, :, 0]))[:1]:
-        raise InputError("rail", line.labels[i][j], "is a node of the rail that the modes leave out", "Write the modes there too")
+        allowed = "is a node of the rail that the modes leave out"
+        raise InputError("line", line.labels[i][j], allowed, "Write the modes there too")
     functions = _along(line, shapes, model.rotations)
     motion = _motion(functions)
     size = np.sum(motion**2, axis=-1)
     if not size.any():
-        raise InputError("rail", None, "stands still in every mode", "Does it run along the deck's bearings?")
-    moving = np.flatnonzero(np.sqrt(size.sum(axis=1) / size.sum(axis=1).max()) > 1e-6)
-    kept = moving[: errors.integer("modes.count", count, least=1, most=len(moving)) if count is not None else None]
+        remedy = "Does it run along the deck's bearings?"
+        raise InputError("line", None, "stands still in every mode", remedy)
+    kept = np.flatnonzero(np.sqrt(size.sum(axis=1) / size.sum(axis=1).max()) > 1e-6)
+    if count is not None:
+        kept = kept[: errors.integer("count", count, least=1, most=len(kept))]
     frequencies = model.frequencies_hz[kept]
     _refuse_units(line, supports, frequencies, size[kept], unusual)
     if model.masses is None:
@@ -176,12 +193,13 @@ def deck_from_modes(
     if damping is not None and np.isscalar(damping):
         ratios = np.full(len(kept), errors.number("damping", damping, least=0.0, most=0.5))
     elif damping is not None:
-        ratios = rayleigh_ratio(*errors.numbers("damping", damping, count=2, least=0.0), frequencies)
+        alpha, beta = errors.numbers("damping", damping, count=2, least=0.0)
+        ratios = rayleigh_ratio(alpha, beta, frequencies)
     elif np.isfinite(model.damping_ratios).all():
         ratios = model.damping_ratios[kept]
     else:
-        remedy = "Add the column damping_ratio to the modes, or damping = { modal = 0.01 } to the deck"
-        raise InputError("damping", None, "is missing", remedy)
+        remedy = "Add the column damping_ratio to the modes, or damping = { modal = 0.01 } to the "
+        raise InputError("damping", None, "is missing", remedy + "deck")
     return Deck(
         name=name,
         length=line.length,
@@ -196,27 +214,34 @@ def deck_from_modes(
     )
 
 
-def _along(line: RailLine, shapes: np.ndarray, rotations: tuple[bool, bool, bool]) -> PiecewiseCubic:
+def _along(
+    line: RailLine, shapes: np.ndarray, rotations: tuple[bool, bool, bool]
+) -> PiecewiseCubic:
     """Return the shapes along the deck axis from those of the line's nodes, shape (m, n, k, 6)."""
     _, uy, uz, rx, ry, rz = np.moveaxis(shapes, -1, 0)
     lateral, vertical, twist = line.axis_motion(uy, uz, rx)
     if line.cubic and len(line.x) % 3 == 1:
-        return PiecewiseCubic(line.x[::3], np.stack([cubics(line.x, v) for v in (lateral, vertical, twist)], axis=-1))
+        whole = [cubics(line.x, v) for v in (lateral, vertical, twist)]
+        return PiecewiseCubic(line.x[::3], np.stack(whole, axis=-1))
     result = np.zeros((len(line.x) - 1, 4, len(shapes), 3))
-    for c, value, slope, known, names in ((0, lateral, rz, rotations[2], "uy rz"), (1, vertical, -ry, rotations[1], "uz -ry")):
-        if known and not line.paired and _agree(line.x, value, slope[..., 0], *names.split()):
+    for c, value, slope, known, name, rotation in (
+        (0, lateral, rz, rotations[2], "uy", "rz"),
+        (1, vertical, -ry, rotations[1], "uz", "-ry"),
+    ):
+        if known and not line.paired and _agree(line.x, value, slope[..., 0], name, rotation):
             result[..., c] = hermite(line.x, value, slope[..., 0])
         else:
-            _warn_of_few_nodes(value, names[:2])
+            _warn_of_few_nodes(value, name)
             result[..., c] = spline(line.x, value)
     result[..., 2] = spline(line.x, twist) if line.paired else parabolas(line.x, twist)
     return PiecewiseCubic(line.x, result)
 
 
 def _agree(x: np.ndarray, values: np.ndarray, slopes: np.ndarray, name: str, rotation: str) -> bool:
-    """Whether rotations are slopes of the displacements, in the mode where they fit best; if not, warn and do without.
+    """Whether rotations are slopes of the displacements, in the mode where they fit best.
 
-    Usual reasons: drilling rotations of shells, left-handed rotations, other units of the angle.
+    If not, say so in a warning. Usual reasons: drilling rotations of shells, left-handed rotations,
+    other units of the angle.
     """
     from_values = CubicSpline(x, values, axis=-1)(x, 1)
     size = np.linalg.norm(from_values, axis=1)
@@ -225,43 +250,47 @@ def _agree(x: np.ndarray, values: np.ndarray, slopes: np.ndarray, name: str, rot
     if len(misfit) == 0 or misfit.min() < 0.2:
         return True
     warnings.warn(
-        f"modes: {rotation} is not the slope of {name} along the rail (off by {misfit.min():.0%} at best), so slopes are taken "
-        "from the displacements.",
+        f"modes: {rotation} is not the slope of {name} along the rail (off by {misfit.min():.0%} "
+        "at best), so slopes are taken from the displacements.",
         stacklevel=4,
     )
     return False
 
 
 def _warn_of_few_nodes(values: np.ndarray, name: str) -> None:
-    """Warn of modes with more than one change of sign in three nodes: a spline cannot follow them."""
+    """Warn of modes that change sign more than once in three nodes: no spline can follow them."""
     large = np.abs(values) > 1e-3 * np.abs(values).max()
     changes = [(np.diff(np.sign(v[use])) != 0).sum() for v, use in zip(values, large, strict=True)]
     if max(changes) > values.shape[1] / 3:
         mode = int(np.argmax(changes)) + 1
         warnings.warn(
-            f"modes: the {values.shape[1]} nodes of the rail are few for {name} of mode {mode}, which changes sign "
-            f"{max(changes)} times. Use a finer line, fewer modes, or write rotations too.",
+            f"modes: the {values.shape[1]} nodes of the rail are few for {name} of mode {mode}, "
+            f"which changes sign {max(changes)} times. Use a finer line, fewer modes, or write "
+            "rotations too.",
             stacklevel=4,
         )
 
 
 def _motion(functions: PiecewiseCubic) -> np.ndarray:
-    """Return v, w and 1.5 m twist at points along the rail, shape (m, 3, points), times the root of each point's length.
+    """Return v, w and 1.5 m twist at points along the rail, shape (m, 3, points).
 
-    Sums of products over the points are then integrals along the deck.
+    They are multiplied by the root of each point's length: sums of products over the points are
+    then integrals along the deck.
     """
     points, weights = np.polynomial.legendre.leggauss(4)
     h = np.diff(functions.edges)
     x = (functions.edges[:-1, None] + h[:, None] * (points + 1) / 2).ravel()
     values = functions(x) * [1.0, 1.0, 1.5]
-    return np.moveaxis(values * np.sqrt((h[:, None] * weights / 2).ravel())[:, None, None], 0, -1)
+    lengths = (h[:, None] * weights / 2).ravel()
+    return np.moveaxis(values * np.sqrt(lengths)[:, None, None], 0, -1)
 
 
 def _warn_of_overlap(model: ModalModel, motion: np.ndarray, kept: np.ndarray) -> None:
-    """Warn of modes that look alike along the rail, as over a uniform deck: without masses nobody can say more.
+    """Warn of modes that look alike along the rail of a uniform deck.
 
-    Only modes of the whole deck that hardly twist are compared, those with as much mass at the rail as the first of them: at a
-    rail off the shear centre twist looks like bending, and local modes may look like anything.
+    Without masses nobody can say more. Only modes of the whole deck that hardly twist are compared,
+    those with as much mass at the rail as the first of them: at a rail off the shear centre twist
+    looks like bending, and local modes may look like anything.
     """
     size = np.sum(motion[kept] ** 2, axis=-1)
     whole = size.sum(axis=1)
@@ -274,8 +303,8 @@ def _warn_of_overlap(model: ModalModel, motion: np.ndarray, kept: np.ndarray) ->
         i, j = np.unravel_index(np.argmax(overlap), overlap.shape)
         pair = f"modes {model.labels[bending[i]]} and {model.labels[bending[j]]}"
         warnings.warn(
-            f"modes: {pair} overlap by {overlap[i, j]:.2f} along the rail of a uniform deck. Give the nodal masses to have "
-            "their orthogonality checked.",
+            f"modes: {pair} overlap by {overlap[i, j]:.2f} along the rail of a uniform deck. Give "
+            "the nodal masses to have their orthogonality checked.",
             stacklevel=3,
         )
 
@@ -292,11 +321,18 @@ def _names(model: ModalModel, size: np.ndarray, kept: np.ndarray) -> tuple[str, 
     return tuple(names)
 
 
-def _refuse_units(line: RailLine, supports: Sequence[float], frequencies: np.ndarray, size: np.ndarray, unusual: bool) -> None:
+def _refuse_units(
+    line: RailLine,
+    supports: Sequence[float],
+    frequencies: np.ndarray,
+    size: np.ndarray,
+    unusual: bool,
+) -> None:
     """Refuse a first frequency or a mass per metre beyond those of bridges by orders of magnitude.
 
-    First frequencies of simple spans L (m) lie between 80 / L (to 20 m) or 23.58 L^-0.592 and 94.76 L^-0.748 Hz (EN 1991-2,
-    6.4.4). A mass-normalised mode in which the deck moves as a whole has an integral of phi^2 of about 1 / mass per metre.
+    First frequencies of simple spans L (m) lie between 80 / L (to 20 m) or 23.58 L^-0.592 and
+    94.76 L^-0.748 Hz (EN 1991-2, 6.4.4). A mass-normalised mode in which the deck moves as a whole
+    has an integral of phi^2 of about 1 / mass per metre.
     """
     span = float(np.max(np.diff(np.sort(supports)))) if len(supports) > 1 else line.length
     low, high = (80 / span if span <= 20 else 23.58 * span**-0.592), 94.76 * span**-0.748
@@ -306,13 +342,19 @@ def _refuse_units(line: RailLine, supports: Sequence[float], frequencies: np.nda
     usual = f"bridges of {span:.3g} m have about {low:.2g} to {high:.2g} Hz"
     if off > 10 and not unusual:
         allowed = f"lies an order of magnitude away: {usual}"
-        remedy = "Check the units of length (mm or m?) and of frequency (Hz, not rad/s); unusual = true if the deck is so"
+        remedy = "Check the units of length (mm or m?) and of frequency (Hz, not rad/s); "
+        remedy += "unusual = true if the deck is so"
         raise InputError("modes: first frequency", first, allowed, remedy)
     if off > 3 and not unusual:
-        warnings.warn(f"modes: first frequency {first:.3g} Hz: {usual}. Are the units right (rad/s?)", stacklevel=4)
+        warnings.warn(
+            f"modes: first frequency {first:.3g} Hz: {usual}. Are the units right (rad/s?)",
+            stacklevel=4,
+        )
     vertical = np.flatnonzero(np.argmax(size, axis=1) == 1)
     mass = 1.0 / size[vertical[0], 1] if len(vertical) else 1.0 / size[0].max()
     if not _LIKELY_MASS[0] < mass < _LIKELY_MASS[1] and not unusual:
-        allowed = f"make the deck {mass:.3g} kg per metre, bridges have {_LIKELY_MASS[0]:g} to {_LIKELY_MASS[1]:g}"
-        remedy = "Check the unit of mass (kg or t?); shapes scaled to a largest value of 1 need the column modal_mass"
+        allowed = f"make the deck {mass:.3g} kg per metre"
+        allowed += f", bridges have {_LIKELY_MASS[0]:g} to {_LIKELY_MASS[1]:g}"
+        remedy = "Check the unit of mass (kg or t?); shapes scaled to a largest value of 1 need "
+        remedy += "the column modal_mass"
         raise InputError("modes: shapes", None, allowed, remedy)

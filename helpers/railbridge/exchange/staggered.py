@@ -1,14 +1,16 @@
-r"""The paper's fixed point with somebody else's deck: wheel forces out, displacements in, pass by pass.
+r"""The paper's fixed point with somebody else's deck: wheel forces out, displacements in.
 
 The deck is solved in another program. Each pass is one exchange of files:
 
-1. `export_loads` writes the loads of the present wheel forces as time functions of the nodes under the rail;
+1. `export_loads` writes the loads of the present wheel forces as time functions of the nodes under
+   the rail;
 2. the other program computes and writes the displacements of these nodes;
-3. `next_forces` adds them to the irregularity under every wheel (the paper's "equivalent irregularity") and runs the train
-   on it: the next wheel forces, with the change against the last ones.
+3. `next_forces` adds them to the irregularity under every wheel (the paper's "equivalent
+   irregularity") and runs the train on it: the next wheel forces, with the change against the last
+   ones.
 
-The train's side is that of `interaction`: the nodes' displacements stand in place of modal coordinates, with the functions
-that interpolate between nodes in place of mode shapes.
+The train's side is that of `coupling`: the nodes' displacements stand in place of modal
+coordinates, with the functions that interpolate between nodes in place of mode shapes.
 
 How loads get to the nodes is in `loads`.
 """
@@ -27,18 +29,24 @@ from scipy.interpolate import CubicSpline
 from .. import errors
 from ..coupling import Coupling, DeckState, ForcesAdded, prepare
 from ..decks import History
-from ..errors import InputError
+from ..errors import InputError, within
 from ..guideways import Guideway, PiecewiseCubic
 from ..settings import check
 from ..tracks import FadeIn, Track
-from ..trains import AxleTrain, Train
+from ..trains import AnyTrain
+from ..units import PER_METRE
+from .interpolation import spline
 from .loads import NodalLoads, export_loads, nodal_loads
-from .nodes import PER_METRE, RailLine, read_columns, spline
+from .nodes import RailLine
+from .tables import Columns, read_columns
 
 __all__ = [
-    "NodalLoads", "NodeMotion", "Staggered", "begin", "equivalent_irregularity", "export_loads", "next_forces", "nodal_loads",
-    "read_motion",
+    "NodalLoads", "NodeMotion", "Staggered", "begin", "equivalent_irregularity", "export_loads",
+    "next_forces", "nodal_loads", "read_motion",
 ]  # fmt: skip
+
+_OPTIONS = ("loads", "track_offset", "time_step", "lead_in", "tail", "excitation", "feedback")
+_MOTIONS = ("ux", "uy", "uz", "rx", "ry", "rz")
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,20 +55,21 @@ class Staggered:
 
     Attributes
     ----------
-    train : Train or AxleTrain
+    train : AnyTrain
     track : Track
     line : RailLine
     coupling : Coupling
-        The train's side of the iteration; its deck is `nodal_deck`.
+        The train's side of the iteration; its deck is `nodal_guideway`.
     passes : tuple of list of ndarray
-        What the deck's motion adds to the wheel forces, N, for each pass; pass 0 (rigid deck) first. See `Crossing.passes`.
+        What the deck's motion adds to the wheel forces, N, for each pass; pass 0 (rigid deck)
+        first. See `Crossing.passes`.
     changes : tuple of float
         See `Coupling.change`; small twice in a row means settled.
     felt : DeckState or None
         The nodes' motion that the last forces answer to.
     """
 
-    train: Train | AxleTrain
+    train: AnyTrain
     track: Track
     line: RailLine
     coupling: Coupling
@@ -80,11 +89,14 @@ class Staggered:
 
     @cached_property
     def wheel_forces(self) -> np.ndarray:
-        """All wheel forces on the deck, N, shape (wheels, 2, n): lateral, vertical; static part included."""
+        """All wheel forces on the deck, N, shape (wheels, 2, n): lateral, vertical.
+
+        The static part is included.
+        """
         return errors.frozen(self.coupling.wheel_forces(self.passes[-1], self.felt))
 
 
-def nodal_deck(line: RailLine, track_height: float = 0.0) -> Guideway:
+def nodal_guideway(line: RailLine, track_height: float = 0.0) -> Guideway:
     """Return what moves as the nodes of a line do: its coordinates are their y, z and twist.
 
     Its shapes interpolate between the nodes by cubic splines.
@@ -99,7 +111,13 @@ def nodal_deck(line: RailLine, track_height: float = 0.0) -> Guideway:
 
 
 def begin(
-    train: Train | AxleTrain, track: Track, line: RailLine, *, speed: float, track_height: float = 0.0, **options: Any
+    train: AnyTrain,
+    track: Track,
+    line: RailLine,
+    *,
+    speed: float,
+    track_height: float = 0.0,
+    **options: Any,
 ) -> Staggered:
     """Return pass 0: the wheel forces on a rigid deck.
 
@@ -113,12 +131,17 @@ def begin(
     track_height : float
         Rails above the deck axis, m; see `Deck`.
     options
-        ``loads``, ``track_offset``, ``time_step``, ``lead_in``, ``tail``, ``excitation``, ``feedback``; see `cross`.
+        ``loads``, ``track_offset``, ``time_step``, ``lead_in``, ``tail``, ``excitation``,
+        ``feedback``; see `cross`.
+
+    Raises
+    ------
+    InputError
+        Another option, or what `cross` refuses.
     """
-    allowed = ("loads", "track_offset", "time_step", "lead_in", "tail", "excitation", "feedback")
-    errors.keys("run", options, allowed)
+    errors.keys("", options, _OPTIONS)
     track_height = errors.number("track_height", track_height, unit="m")
-    deck = nodal_deck(line, track_height)
+    deck = nodal_guideway(line, track_height)
     coupling = prepare(train, deck, track, check(train, deck, track, speed=speed, **options))
     return Staggered(train, track, line, coupling, (coupling.nothing_added(),))
 
@@ -132,7 +155,8 @@ class NodeMotion:
     time : ndarray, shape (t,)
         s, ascending; zero when the first axle enters.
     y, z, roll : ndarray, shape (nodes, t)
-        m, m, rad; nodes as in ``line.nodes``. `roll` is not used where a left and a right line carry the rail.
+        m, m, rad; nodes as in ``line.nodes``. `roll` is not used where a left and a right line
+        carry the rail.
     """
 
     time: np.ndarray
@@ -142,50 +166,57 @@ class NodeMotion:
 
 
 def read_motion(path: str | Path, line: RailLine) -> NodeMotion:
-    """Read a displacement history: a CSV file with columns time, node, and of ux, uy, uz, rx, ry, rz those that are known.
+    """Read a displacement history: a CSV file with columns time, node, and ux, uy, uz, rx, ry, rz.
 
-    In the units and axes of the line's nodes; m or mm can also be said by a line ``# units: mm``. Rows in any order; nodes off
-    the line are passed over. uy and uz (in our axes) are needed; without rx a single line does not twist.
+    In the units and axes of the line's nodes; the unit of length can also be said by a line
+    ``# units: mm``. Rows in any order; nodes off the line are passed over. uy and uz (in our axes)
+    are needed; the others may be left out. Without rx a single line does not twist.
 
     Raises
     ------
     InputError
         A node of the line is missing, or not all of them have the same instants.
     """
-    translations, rotations = ["ux", "uy", "uz"], ["rx", "ry", "rz"]
-    table = read_columns(path, ["time", "node"], [*translations, *rotations])
-    for i, needed in ((1, "lateral"), (2, "vertical")):
-        column = translations[int(np.argmax(np.abs(line.turn[i])))]
-        if column not in table.cells:
-            raise InputError(
-                f"{table.name}: column {column}", None, f"is missing: the {needed} displacement", "Write zeros if none"
-            )
-    length = line.units[0]
-    if table.units is not None:
-        length = errors.choice(f"{table.name}: units", (*table.units, "")[0], PER_METRE)
-    labels, times = table.labels("node"), table.numbers("time")
-    rows: dict[str, list[int]] = {}
-    for i, label in enumerate(labels):
-        rows.setdefault(label, []).append(i)
-    for label in line.nodes:
-        if label not in rows:
-            raise InputError(f"{table.name}: node", label, "of the rail line is missing", errors.did_you_mean(label, rows))
-    order = {label: np.array(own)[np.argsort(times[own], kind="stable")] for label, own in rows.items()}
-    time = times[order[line.nodes[0]]]
-    for label in line.nodes:
-        if len(order[label]) != len(time) or np.any(np.abs(times[order[label]] - time) > 1e-9 * max(time[-1], 1e-9)):
-            remedy = "Write all nodes at every instant"
-            raise InputError(f"{table.name}: node {label}", None, f"has not the instants of node {line.nodes[0]}", remedy)
-    zeros = np.zeros(len(labels))
-    found = np.array([table.numbers(c) if c in table.cells else zeros for c in (*translations, *rotations)])
-    index = np.array([order[label] for label in line.nodes])
+    table = read_columns(path, ["time", "node"], _MOTIONS)
+    with within(source=table.name):
+        for i, needed in ((1, "lateral"), (2, "vertical")):
+            column = _MOTIONS[int(np.argmax(np.abs(line.turn[i])))]
+            if column not in table.cells:
+                allowed = f"is missing: the {needed} displacement"
+                raise InputError(f"column {column}", None, allowed, "Write zeros if none")
+        length = line.units[0]
+        if table.units is not None:
+            length = errors.choice("units[1]", (*table.units, "")[0], PER_METRE)
+        time, index = _instants(table, line)
+    zeros = np.zeros(len(table.lines))
+    found = np.array([table.numbers(c) if c in table.cells else zeros for c in _MOTIONS])
     moved = np.einsum("ij,jnt->int", line.turn, found[:3][:, index]) / PER_METRE[length]
     turned = np.einsum("ij,jnt->int", line.turn, found[3:][:, index])
     return NodeMotion(time, moved[1], moved[2], turned[0])
 
 
+def _instants(table: Columns, line: RailLine) -> tuple[np.ndarray, np.ndarray]:
+    """Return the instants, s, and the row of each node of the line at each, shape (nodes, t)."""
+    times = table.numbers("time")
+    rows: dict[str, list[int]] = {}
+    for i, label in enumerate(table.labels("node")):
+        rows.setdefault(label, []).append(i)
+    for label in line.nodes:
+        if label not in rows:
+            near = errors.did_you_mean(label, rows)
+            raise InputError("node", label, "of the rail line is missing", near)
+    index = [np.array(rows[n])[np.argsort(times[rows[n]], kind="stable")] for n in line.nodes]
+    time = times[index[0]]
+    for label, own in zip(line.nodes, index, strict=True):
+        slack = 1e-9 * max(time[-1], 1e-9)
+        if len(own) != len(time) or np.any(np.abs(times[own] - time) > slack):
+            allowed = f"has not the instants of node {line.nodes[0]}"
+            raise InputError(f"node {label}", None, allowed, "Write all nodes at every instant")
+    return time, np.array(index)
+
+
 def next_forces(step: Staggered, motion: NodeMotion, share: float = 1.0) -> Staggered:
-    """Return the next pass: the wheel forces on the irregularity plus the deck's motion under every wheel.
+    """Return the next pass: the wheel forces on the irregularity plus the deck's motion.
 
     Parameters
     ----------
@@ -194,7 +225,8 @@ def next_forces(step: Staggered, motion: NodeMotion, share: float = 1.0) -> Stag
     motion : NodeMotion
         What it answered.
     share : float
-        Relaxation: the share of the correction that is applied. Less than 1 helps light decks and fast trains.
+        Relaxation: the share of the correction that is applied. Less than 1 helps light decks and
+        fast trains.
 
     Raises
     ------
@@ -203,8 +235,8 @@ def next_forces(step: Staggered, motion: NodeMotion, share: float = 1.0) -> Stag
 
     Notes
     -----
-    Velocities are those of a cubic spline through the instants, so these must be as fine as the motion: a step of the size
-    of ours, or a twentieth of the shortest period that matters.
+    Velocities are those of a cubic spline through the instants, so these must be as fine as the
+    motion: a step of the size of ours, or a twentieth of the shortest period that matters.
     """
     share = errors.number("share", share, above=0.0, most=1.0)
     axis = _axis_motion(step.line, motion)
@@ -224,58 +256,85 @@ def next_forces(step: Staggered, motion: NodeMotion, share: float = 1.0) -> Stag
 
 
 def _axis_motion(line: RailLine, motion: NodeMotion) -> np.ndarray:
-    """Return y, z and twist of the deck axis at the places of the line, one after the other, shape (3 n, t)."""
+    """Return y, z and twist of the deck axis at the places of the line, shape (3 n, t).
+
+    First y of all places, then z, then the twist.
+    """
     shape = line.y.shape
     for name in ("y", "z", "roll"):
         values = getattr(motion, name)
         if np.shape(values) != (len(line.nodes), len(motion.time)):
-            raise InputError(
-                f"motion.{name}", np.shape(values), f"must have {len(line.nodes)} nodes and {len(motion.time)} instants"
-            )
-    y, z, roll = (np.moveaxis(np.reshape(a, (*shape, -1)), -1, 0) for a in (motion.y, motion.z, motion.roll))
-    return np.concatenate([motion.T for motion in line.axis_motion(y, z, roll)])
+            allowed = f"must have {len(line.nodes)} nodes and {len(motion.time)} instants"
+            remedy = "Give arrays of shape (nodes, instants)"
+            raise InputError(f"motion.{name}", np.shape(values), allowed, remedy)
+    motions = (motion.y, motion.z, motion.roll)
+    y, z, roll = (np.moveaxis(np.reshape(a, (*shape, -1)), -1, 0) for a in motions)
+    return np.concatenate([values.T for values in line.axis_motion(y, z, roll)])
 
 
 def _refuse_history(motion: NodeMotion, axis: np.ndarray, needed: np.ndarray) -> None:
     time = motion.time
     if len(time) < 4 or np.any(np.diff(time) <= 0):
-        raise InputError("motion.time", None, "must ascend and hold at least 4 instants")
+        allowed = "must ascend and hold at least 4 instants"
+        raise InputError("motion.time", None, allowed, "Sort it, and write more instants")
     if not np.isfinite(axis).all():
         raise InputError("motion", None, "must be finite", "Did the other program diverge?")
     slack = 1.5 * float(np.median(np.diff(time)))
     if time[0] > needed[0] + slack or time[-1] < needed[-1] - slack:
-        allowed = f"must cover the crossing, {needed[0]:g} to {needed[-1]:g} s, from the first axle's entrance on"
-        raise InputError("motion.time", [float(time[0]), float(time[-1])], allowed, "Compute longer, or shift its zero")
+        allowed = f"must cover the crossing, {needed[0]:g} to {needed[-1]:g} s"
+        allowed += ", from the first axle's entrance on"
+        remedy = "Compute longer, or shift its zero"
+        raise InputError("motion.time", [float(time[0]), float(time[-1])], allowed, remedy)
     size = np.abs(axis).max()
     if size > 0.0 and np.abs(axis[:, 0]).max() > 0.05 * size:
         allowed = "is not at rest at the start, where only the first axle stands on its end"
-        raise InputError("motion", None, allowed, "Leave out the deck's own weight: the track is laid level on the sagged deck")
-    if np.abs(axis).max() > 1.0:
-        warnings.warn(f"motion: {size:.3g} m is a large displacement of a bridge; are the units right (mm?)", stacklevel=3)
+        remedy = "Leave out the deck's own weight: the track is laid level on the sagged deck"
+        raise InputError("motion", None, allowed, remedy)
+    if size > 1.0:
+        warnings.warn(
+            f"motion: {size:.3g} m is a large displacement of a bridge; are the units right (mm?)",
+            stacklevel=3,
+        )
 
 
 def equivalent_irregularity(step: Staggered, car: int = 1, wheel: int = 1) -> History:
-    """Return what one wheel of the last pass has met: irregularity plus the deck's motion (the paper's second step).
+    """Return what one wheel of the last pass has met: irregularity plus the deck's motion.
+
+    This is the paper's second step.
+
+    Parameters
+    ----------
+    step : Staggered
+    car, wheel : int
+        Both count from 1.
 
     Returns
     -------
     History
-        ``track_z``, ``deck_z``, ``equivalent_z`` and the same for y, m, over the whole record. With ``feedback`` vertical only
-        the deck's ``z`` is felt, without twist.
+        ``track_z``, ``deck_z``, ``equivalent_z`` and the same for y, m, over the whole record. With
+        ``feedback`` vertical only the deck's ``z`` is felt, without twist.
+
+    Raises
+    ------
+    InputError
+        No such wheel in the train.
     """
-    wheels = [i for i, w in enumerate(step.train.wheels) if (w.car, w.number) == (car, wheel)]
-    if not wheels:
-        raise InputError("wheel", (car, wheel), "no such (car, wheel) in this train", "Both are counted from 1")
-    own, s = step.train.wheels[wheels[0]], step.coupling.settings
-    carried = step.coupling.cars[own.car - 1]
-    place = next(i for i, axle in enumerate(carried.car.axles) if own in axle.wheels)
-    axle = int(carried.axles[place])
-    ahead = carried.car.vehicle.length / 2 - own.x if s.excitation == "car" else 0.0
+    s, own = step.coupling.settings, None
+    for c in step.coupling.cars:
+        for place, station in zip(c.car.axles, c.axles, strict=True):
+            for found in place.wheels:
+                if (found.car, found.number) == (car, wheel):
+                    own, axle, vehicle = found, int(station), c.car.vehicle
+    if own is None:
+        allowed = "no such (car, wheel) in this train"
+        raise InputError("wheel", (car, wheel), allowed, "Both are counted from 1")
+    ahead = vehicle.length / 2 - own.x if s.excitation == "car" and vehicle is not None else 0.0
     x = s.speed * step.time - own.delay + ahead
     deck = np.zeros((2, len(step.time)))
     if step.felt is not None:
         axles = step.coupling.axles
-        moved = axles.motion(axles.ordered(step.felt.q, step.felt.velocity), np.array([axle]))[0][:, 0]
+        motion, _ = axles.motion(axles.ordered(step.felt.q, step.felt.velocity), np.array([axle]))
+        moved = motion[:, 0]
         start = int(axles.starts[axle])
         window = slice(start, start + moved.shape[1])
         deck[1, window] = moved[1]

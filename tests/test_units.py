@@ -1,0 +1,59 @@
+"""Units: each declared once, and numbers converted to SI."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from railbridge import units
+from railbridge.errors import InputError
+
+EXAMPLES = [
+    ("kN", "N", 1e3), ("mm", "m", 1e-3), ("km/h", "m/s", 1 / 3.6), ("t/m", "kg/m", 1e3),
+    ("GPa", "Pa", 1e9), ("kN s/m", "N s/m", 1e3), ("t m2", "kg m2", 1e3), ("kN m2", "N m2", 1e3),
+]  # fmt: skip
+
+
+@given(value=st.floats(-1e6, 1e6), pair=st.sampled_from(EXAMPLES))
+def test_units(value, pair):
+    unit, si, factor = pair
+    assert units.quantity("x", value, unit, si) == pytest.approx(
+        value * factor, rel=1e-14, abs=1e-25
+    )
+    with pytest.raises(InputError, match="unit"):
+        units.quantity("x", value, "s" if si != "s" else "m", si)
+
+
+def test_a_unit_belongs_to_one_dimension_and_the_first_is_that_of_si():
+    names = [name for family in units.UNITS.values() for name in family]
+    assert len(names) == len(set(names))
+    assert all(next(iter(family.values())) == 1.0 for family in units.UNITS.values())
+
+
+def test_units_of_a_dimension_are_named():
+    assert units.units_of("mass") == ("kg", "t", "lb", "slug")
+    with pytest.raises(InputError, match="Did you mean 'length'"):
+        units.units_of("lenght")
+
+
+def test_whole_numbers_of_a_unit_make_a_metre():
+    """Dividing by them rounds once: 1234.567 mm are the float nearest to 1.234567 m."""
+    assert [units.PER_METRE[u] for u in ("m", "cm", "mm")] == [1.0, 100.0, 1000.0]
+    assert units.PER_METRE["in"] == 1 / 0.0254 and units.PER_METRE["ft"] == 1 / 0.3048
+    assert 1234.567 / units.PER_METRE["mm"] == 1.234567
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "message"),
+    [
+        (1.0, "N", r"width \(unit\) = 'N': must be one of m, mm, cm, km, in, ft. Correct the unit"),
+        (1.0, "", r"width \(unit\) = '': must be one of m, "),
+        (1.0, ["m"], r"width \(unit\) = \['m'\]: must be one of m, "),
+        ("two", "m", "width = 'two': must be a number. Use a point as decimal mark"),
+        (None, "m", "width: must be a number"),
+        (float("nan"), "m", "width = nan: must be a finite number"),
+        (-1.0, "mm", "width = -0.001: must be a finite number above 0 m"),
+    ],
+)
+def test_quantities_that_cannot_be_used_are_refused(value, unit, message):
+    with pytest.raises(InputError, match=message):
+        units.quantity("width", value, unit, "m", above=0.0)
