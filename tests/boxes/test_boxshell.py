@@ -42,7 +42,7 @@ def test_thin_cantilevers_flap_locally():
     assert len(local) >= 3 and all(modes.parts[i] == "cantilevers" for i in local)
     clamped = 3.516 / (2 * np.pi) / (2.3 - 0.175) ** 2 * 0.15 * np.sqrt(34e9 / (12 * (1 - 0.04) * 2500))
     assert 0.6 * clamped < modes.frequencies_hz[local[0]] < 1.1 * clamped
-    assert set(modes.even[local].tolist()) == {True, False}
+    assert set(modes.symmetric[local].tolist()) == {True, False}
 
 
 def test_a_continuous_box_has_diaphragms_over_every_line():

@@ -61,7 +61,7 @@ def test_names_are_numbered_within_their_kind_and_mirrors_are_told():
     vectors = np.concatenate([moving(**RIGID[w]) for w in (2, 3, 2)], axis=2)
     modes = described(TUBE, np.array([1.0, 2.0, 3.0]), vectors)
     assert modes.names == ("vertical bending 1", "torsion 1", "vertical bending 2")
-    assert modes.even.tolist() == [True, False, True]
+    assert modes.symmetric.tolist() == [True, False, True]
 
 
 @pytest.mark.parametrize(("part", "points"), [("top", (0, 1)), ("bottom", (2, 3)), ("left", (3, 0))])

@@ -1,6 +1,10 @@
 """Beams in three dimensions on bearings: one way to make a `Deck`."""
 
 from .beam import Beam
-from .bearings import Bearing
+from .bearings import FIXITIES, Bearing, on_deck
+from .mesh import BeamModes
+from .properties import BeamProperties, Section, checked_spans
 
-__all__ = ["Beam", "Bearing"]
+__all__ = [
+    "FIXITIES", "Beam", "BeamModes", "BeamProperties", "Bearing", "Section", "checked_spans", "on_deck",
+]  # fmt: skip

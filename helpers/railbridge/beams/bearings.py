@@ -1,36 +1,40 @@
 r"""Bearings: where they stand, what they hold, and the rows that say so.
 
-A bearing at (x, y, z) is tied rigidly to the section at x. With the section's displacement (u, v, w) and rotation theta it
-moves by ``u + theta x r``,
+A bearing at (x, y, z) is tied rigidly to the section at x. With the section's displacement (u, v,
+w) and rotation theta it moves by ``u + theta x r``,
 
     x:  u + theta_y z - theta_z y,      y:  v - theta_x z,      z:  w + theta_x y,
 
-y and z measured from the deck axis, which runs through the shear centres, and u being that of the centroid, so that there z
-counts from the centroid. A freedom is held rigidly (its row is zero) or by a spring to the ground (its row times the
-stiffness is the force).
+y and z measured from the deck axis, which runs through the shear centres, and u being that of the
+centroid, so that there z counts from the centroid. A freedom is held rigidly (its row is zero) or
+by a spring to the ground (its row times the stiffness is the force).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Annotated
 
 import numpy as np
 
 from .. import errors
-from ..errors import InputError
+from ..errors import InputError, Range, check_fields
 
-__all__ = ["FIXITIES", "Bearing", "free_motions", "null_space", "on_deck", "tables"]
+__all__ = ["FIXITIES", "Bearing", "free_motions", "null_space", "on_deck"]
 
 FIXITIES = ("x", "y", "z", "roll", "pitch", "yaw")
 FARTHEST = 50.0
 """Farthest a bearing may stand from the deck axis, m: farther is a slip of units."""
+_FROM_AXIS = Range(
+    least=-FARTHEST, most=FARTHEST, unit="m", remedy="It is counted from the deck axis, in m"
+)
 STIFFEST = 1e16
 """N/m and N m/rad: beyond this a spring would cost the modes their digits."""
 _TINY = 1e-9
 _SLACK = 1e-6
-"""Share of the deck's length by which a bearing may miss the end of a span and still stands on it: rounding."""
+"""Share of the deck's length by which a bearing may miss the end of a span and still stands on it:
+rounding."""
 
 
 @dataclass(frozen=True)
@@ -40,57 +44,55 @@ class Bearing:
     Attributes
     ----------
     x : float
-        Place along the deck, m.
+        m along the deck.
     fixed : tuple of str
-        What it holds rigidly: a subset of x y z roll pitch yaw. By default y z roll, or nothing where springs are given.
-    y, z : float
-        m left of and above the deck axis; bearings below it have z < 0.
+        What it holds rigidly: some of x y z roll pitch yaw. By default y z roll, or nothing where
+        springs are given.
+    y : float
+        m left of the deck axis.
+    z : float
+        m above the deck axis; below it negative.
     stiffness : mapping
-        What it holds by springs: N/m for x y z, N m/rad for roll pitch yaw.
-    span : int or None
-        Where simple spans meet, the span (from 1) it carries; None: one such bearing under each.
+        What it holds by springs, { x = 6e9, z = 2e9 }: N/m for x y z, N m/rad for roll pitch yaw.
+        Elastomeric bearings, piers.
+    span : int, optional
+        Where simple spans meet: the span it carries, from 1. Left out: one such bearing stands
+        under each.
 
-    Notes
-    -----
-    The numbers are checked by the `Beam` it is given to, which can say which bearing is wrong.
+    Raises
+    ------
+    InputError
+        An unknown freedom, one that is held twice, or a value out of range.
     """
 
-    x: float
+    x: Annotated[float, Range(unit="m")]
     fixed: tuple[str, ...] | None = None
-    y: float = 0.0
-    z: float = 0.0
+    y: Annotated[float, _FROM_AXIS] = 0.0
+    z: Annotated[float, _FROM_AXIS] = 0.0
     stiffness: Mapping[str, float] = field(default_factory=dict, hash=False)
-    span: int | None = None
+    span: Annotated[int, Range(least=1, whole=True)] | None = None
 
     def __post_init__(self) -> None:
-        fixed = self.fixed
+        check_fields(self)
+        springs, fixed = errors.table("stiffness", self.stiffness), self.fixed
         if fixed is None:
-            fixed = () if self.stiffness else ("y", "z", "roll")
+            fixed = () if springs else ("y", "z", "roll")
         if isinstance(fixed, str):
             fixed = fixed.split()
-        object.__setattr__(self, "fixed", tuple(fixed))
-
-    def check(self, here: str) -> None:
-        """Refuse an unknown freedom, one held twice, or a value out of range; `here` names the bearing.
-
-        Raises
-        ------
-        InputError
-        """
-        for name in ("y", "z"):
-            remedy = "It is counted from the deck axis, in m"
-            errors.number(f"{here}: {name}", getattr(self, name), least=-FARTHEST, most=FARTHEST, unit="m", remedy=remedy)
-        for name in self.fixed:
-            errors.choice(f"{here}: fixed", name, FIXITIES)
-        if self.span is not None:
-            errors.integer(f"{here}: span", self.span, least=1)
-        springs = errors.table(f"{here}: stiffness", self.stiffness)
+        if not isinstance(fixed, (list, tuple)):
+            allowed = "must list some of " + " ".join(FIXITIES)
+            raise InputError("fixed", fixed, allowed)
+        for name in fixed:
+            errors.choice("fixed", name, FIXITIES)
         for name, value in springs.items():
-            errors.choice(f"{here}: stiffness", name, FIXITIES)
-            unit, remedy = "N/m" if name in "xyz" else "N m/rad", "Put what does not give into fixed"
-            errors.number(f"{here}: stiffness.{name}", value, above=0.0, most=STIFFEST, unit=unit, remedy=remedy)
-            if name in self.fixed:
-                raise InputError(f"{here}: stiffness.{name}", value, "is fixed, too", "Give one of both")
+            errors.choice("stiffness", name, FIXITIES)
+            unit = "N/m" if name in "xyz" else "N m/rad"
+            remedy = "Put what does not give into fixed"
+            limits = {"above": 0.0, "most": STIFFEST, "unit": unit, "remedy": remedy}
+            errors.number(f"stiffness.{name}", value, **limits)
+            if name in fixed:
+                raise InputError(f"stiffness.{name}", value, "is fixed, too", "Give one of both")
+        object.__setattr__(self, "fixed", tuple(fixed))
 
     @property
     def held(self) -> tuple[str, ...]:
@@ -98,9 +100,11 @@ class Bearing:
         return tuple(n for n in FIXITIES if n in self.fixed or n in self.stiffness)
 
     def row(self, freedom: str, centroid: float = 0.0) -> np.ndarray:
-        """Return the bearing's displacement or rotation in a direction from its node's freedoms, shape (6,).
+        """Return the bearing's displacement or rotation in a direction from its node's freedoms,
+        shape (6,).
 
-        Freedoms of a node: u (of the centroid, `centroid` m above the axis), v, w, theta_x, theta_z, -theta_y.
+        Freedoms of a node: u (of the centroid, `centroid` m above the axis), v, w, theta_x,
+        theta_z, -theta_y.
         """
         y, z = self.y, self.z
         return {
@@ -113,13 +117,11 @@ class Bearing:
         }[freedom]
 
 
-def on_deck(here: str, x: float, ends: np.ndarray) -> float:
+def on_deck(x: float, ends: np.ndarray) -> float:
     """Return the place of a bearing (m): x, or the end of a span that x misses by rounding only.
 
     Parameters
     ----------
-    here : str
-        Names the bearing.
     x : float
         m.
     ends : ndarray
@@ -132,51 +134,17 @@ def on_deck(here: str, x: float, ends: np.ndarray) -> float:
     """
     slack = _SLACK * float(ends[-1])
     remedy = "It must lie on the deck, x runs along it from its start"
-    x = errors.number(f"{here}: x", x, least=-slack, most=float(ends[-1]) + slack, unit="m", remedy=remedy)
+    x = errors.number("x", x, least=-slack, most=float(ends[-1]) + slack, unit="m", remedy=remedy)
     nearest = float(ends[np.argmin(np.abs(ends - x))])
     return nearest if abs(nearest - x) <= slack else x
 
 
-def tables(where: str, given: Any, known: Sequence[str], fixities: Sequence[str] = FIXITIES) -> list[tuple[str, dict[str, Any]]]:
-    """Return each table of a deck file's ``[[bearing]]`` with its name for messages; `fixed` as a tuple, not yet checked.
-
-    Parameters
-    ----------
-    where : str
-        Of the deck.
-    given : list of tables
-    known : sequence of str
-        Keys a table may have; x is needed.
-    fixities : sequence of str
-        What may be held.
-
-    Raises
-    ------
-    InputError
-        No list of tables, a key unknown or missing, or a bearing that holds nothing.
-    """
-    if not isinstance(given, list):
-        raise InputError(f"{where}: bearing", given, "must be a list of tables", "Write [[bearing]] with two brackets")
-    result = []
-    for i, raw in enumerate(given, start=1):
-        here = f"{where}: bearing {i}"
-        table = errors.table(here, raw)
-        errors.keys(here, table, known, ["x"])
-        fixed = table.get("fixed", [])
-        fixed = fixed.split() if isinstance(fixed, str) else fixed
-        if not isinstance(fixed, list):
-            raise InputError(f"{here}: fixed", table["fixed"], "must list some of " + " ".join(fixities))
-        if not fixed and not table.get("stiffness"):
-            raise InputError(f"{here}: fixed", None, "is missing", "Say what the bearing holds, here or by stiffness")
-        result.append((here, table | {"fixed": tuple(fixed)}))
-    return result
-
-
 def null_space(rows: np.ndarray) -> np.ndarray:
-    """Return the motions of a node (columns) that `rows`, shape (r, n), leave free, shape (n, n - rank).
+    """Return the motions of a node (columns) that `rows`, shape (r, n), leave free, shape (n, n -
+    rank).
 
-    By elimination from the left, so that freedoms which no row couples stay themselves. Rows that say nothing new, as two
-    bearings on one section that both hold y, are passed over.
+    By elimination from the left, so that freedoms which no row couples stay themselves. Rows that
+    say nothing new, as two bearings on one section that both hold y, are passed over.
     """
     a = np.array(rows, dtype=float)
     count = a.shape[1]
@@ -207,9 +175,14 @@ _MOTIONS = {
 
 
 def free_motions(
-    bearings: Sequence[Bearing], fields: Sequence[str], length: float, centroid: float, reference: Mapping[str, float]
+    bearings: Sequence[Bearing],
+    fields: Sequence[str],
+    length: float,
+    centroid: float,
+    reference: Mapping[str, float],
 ) -> list[str]:
-    """Return in words the rigid-body motions that the bearings leave free; empty when the piece is held.
+    """Return in words the rigid-body motions that the bearings leave free; empty when the piece is
+    held.
 
     Parameters
     ----------
@@ -222,7 +195,8 @@ def free_motions(
     centroid : float
         m above the deck axis.
     reference : mapping
-        For each freedom, the stiffness below which a spring counts less than a rigid bearing: far below it, nothing.
+        For each freedom, the stiffness below which a spring counts less than a rigid bearing: far
+        below it, nothing.
     """
     motions = [m for m, f in _MOTIONS.items() if f in fields]
     rows = []
@@ -240,7 +214,12 @@ def free_motions(
             weight = min(1.0, b.stiffness[name] / reference[name]) if name in b.stiffness else 1.0
             row = weight * b.row(name, centroid)
             scale = 1.0 if name in "xyz" else length
-            rows.append([scale * row @ section[m] / (1.0 if m.startswith(("slid", "mov")) else length) for m in motions])
+            rows.append(
+                [
+                    scale * row @ section[m] / (1.0 if m.startswith(("slid", "mov")) else length)
+                    for m in motions
+                ]
+            )
     rows = np.array(rows).reshape(-1, len(motions))
     _, sizes, directions = np.linalg.svd(rows)
     rank = int(np.sum(sizes > 1e-6 * max(sizes.max(initial=0.0), 1e-300)))
@@ -248,7 +227,8 @@ def free_motions(
     found = []
     for j, motion in enumerate(motions):
         moves = motion.startswith(("slid", "mov"))
-        # A turn is free if it takes part in any free motion (its axis may lie anywhere), a shift only if it is free by itself.
+        # A turn is free if it takes part in any free motion (its axis may lie anywhere), a shift
+        # only if it is free by itself.
         if (not rows[:, j].any()) if moves else (np.linalg.norm(loose[:, j]) > 1e-6):
             found.append(motion)
     return found if rank < len(motions) else []

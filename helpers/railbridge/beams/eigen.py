@@ -1,4 +1,5 @@
-"""Lowest modes of large sparse models: K phi = omega^2 M phi with symmetric positive definite matrices."""
+"""Lowest modes of large sparse models: K phi = omega^2 M phi with symmetric positive definite
+matrices."""
 
 from __future__ import annotations
 
@@ -10,8 +11,14 @@ __all__ = ["count_below", "factorised", "lowest"]
 
 
 def factorised(k: csc_array) -> SuperLU:
-    """Return a factorisation of a symmetric matrix that keeps its diagonal as pivots, and so its few entries."""
-    return splu(csc_array(k), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    """Return a factorisation of a symmetric matrix that keeps its diagonal as pivots, and so its
+    few entries."""
+    return splu(
+        csc_array(k),
+        permc_spec="MMD_AT_PLUS_A",
+        diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
+    )
 
 
 def lowest(k: csc_array, m: csc_array, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -42,12 +49,18 @@ def lowest(k: csc_array, m: csc_array, count: int) -> tuple[np.ndarray, np.ndarr
 
 
 def count_below(k: csc_array, m: csc_array, square: float) -> int | None:
-    """Return how many modes lie below omega^2 = `square` (Sylvester: negative pivots of K - omega^2 M).
+    """Return how many modes lie below omega^2 = `square` (Sylvester: negative pivots of K - omega^2
+    M).
 
-    None where the factorisation had to leave the diagonal, so that the signs of its pivots say nothing.
+    None where the factorisation had to leave the diagonal, so that the signs of its pivots say
+    nothing.
     """
     try:
         factor = factorised(k - square * m)
     except RuntimeError:  # singular: `square` is a mode
         return None
-    return int(np.sum(factor.U.diagonal() < 0.0)) if np.array_equal(factor.perm_r, factor.perm_c) else None
+    return (
+        int(np.sum(factor.U.diagonal() < 0.0))
+        if np.array_equal(factor.perm_r, factor.perm_c)
+        else None
+    )

@@ -1,25 +1,35 @@
 r"""Matrices of straight beam elements, one field at a time: axial, lateral, vertical, torsion.
 
-Axial displacement u and twist theta are quadratic, with a node in the middle; lateral v and vertical w are cubic. With the
-shape functions as powers of the local coordinate, ``N = T^T (1, s, s^2, s^3)``, every matrix is one integral,
+Axial displacement u and twist theta are quadratic, with a node in the middle; lateral v and
+vertical w are cubic. With the shape functions as powers of the local coordinate, ``N = T^T (1, s,
+s^2, s^3)``, every matrix is one integral,
 
     K = T^T [ int D_k D_k^T ds ] T * stiffness / h^(2k-1),      M = T^T [ int P P^T ds ] T * mass h,
 
-with k = 1 (axial: EA, twist: G J) or k = 2 (bending: E I). A bending element's freedoms are displacement and rotation psi
-of the section at both ends. Without shear flexibility psi = w'. With it the exact static shape is still a cubic, and
+with k = 1 (axial: EA, twist: G J) or k = 2 (bending: E I). A bending element's freedoms are
+displacement and rotation psi of the section at both ends. Without shear flexibility psi = w'. With
+it the exact static shape is still a cubic, and
 
     psi = w' + (E I / kGA) w''',      shear strain = w' - psi,
 
-so that only T changes, with Phi = 12 E I / (kGA h^2), and the shear strain adds Phi / 12 times the integral of D_3 to
-that of D_2: elements are exact in statics and do not lock (Przemieniecki, Theory of Matrix Structural Analysis, 1968,
-section 5.6). Rotary inertia is ``int m r^2 psi^2``.
+so that only T changes, with Phi = 12 E I / (kGA h^2), and the shear strain adds Phi / 12 times the
+integral of D_3 to that of D_2: elements are exact in statics and do not lock (Przemieniecki, Theory
+of Matrix Structural Analysis, 1968, section 5.6). Rotary inertia is ``int m r^2 psi^2``.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["BENDING", "FIELDS", "POWERS", "coupling", "matrices", "rotation_powers", "shape_matrices"]
+__all__ = [
+    "BENDING",
+    "FIELDS",
+    "POWERS",
+    "coupling",
+    "matrices",
+    "rotation_powers",
+    "shape_matrices",
+]
 
 FIELDS = ("axial", "lateral", "vertical", "torsion")
 BENDING = ("lateral", "vertical")
@@ -53,7 +63,8 @@ def shape_matrices(name: str, h: np.ndarray, phi: np.ndarray) -> np.ndarray:
 
     Returns
     -------
-    ndarray, shape (e, 4, 3) with freedoms first, middle, last; or (e, 4, 4) with w, psi of the first and of the last node
+    ndarray, shape (e, 4, 3) with freedoms first, middle, last; or (e, 4, 4) with w, psi of the
+    first and of the last node
     """
     if name not in BENDING:
         return np.broadcast_to(_QUADRATIC, (len(h), 4, 3))
@@ -108,5 +119,6 @@ def matrices(
 
 
 def coupling(h: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Return the integral of the product of two fields' shapes along every element, shape (e, n1, n2)."""
+    """Return the integral of the product of two fields' shapes along every element, shape (e, n1,
+    n2)."""
     return h[:, None, None] * (np.swapaxes(first, 1, 2) @ POWERS @ second)

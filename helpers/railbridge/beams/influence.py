@@ -1,20 +1,20 @@
 r"""Static influence lines of a beam, and the modal values of its outputs.
 
-By Mueller-Breslau: the influence line of a section force is the deflected shape under a unit jump of the conjugate
-displacement, that of a bearing's force the shape under a unit displacement of the ground below it, its sign turned; that of a
-displacement is the shape under a unit load there. All are exact at any load position and for any section: inside an
-element the jump's own function g (a step, a kink, or the shape of a point load) is added to the elements' shape and its
-interpolation taken off, so no section needs a mesh of its own.
+By Mueller-Breslau: the influence line of a section force is the deflected shape under a unit jump
+of the conjugate displacement, that of a bearing's force the shape under a unit displacement of the
+ground below it, its sign turned; that of a displacement is the shape under a unit load there. All
+are exact at any load position and for any section: inside an element the jump's own function g (a
+step, a kink, or the shape of a point load) is added to the elements' shape and its interpolation
+taken off, so no section needs a mesh of its own.
 
-A distance t behind a point load ``g = t^3 / (6 E I) - t / kGA``: the kink of w by 1 / kGA is the jump of the shear strain,
-while psi stays smooth.
+A distance t behind a point load ``g = t^3 / (6 E I) - t / kGA``: the kink of w by 1 / kGA is the
+jump of the shear strain, while psi stays smooth.
 """
 
 from __future__ import annotations
 
 from functools import cached_property
 from math import comb
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,9 +23,7 @@ from ..decks import BEARING_QUANTITIES, REACTION_QUANTITIES, SECTION_QUANTITIES,
 from ..guideways import PiecewiseCubic
 from ..units import G
 from .elements import BENDING, rotation_powers
-
-if TYPE_CHECKING:
-    from .beam import Beam
+from .mesh import Mesh
 
 __all__ = ["BeamRecovery"]
 
@@ -39,7 +37,12 @@ _CONJUGATE = {
 }
 _FIELD_OF = {"displacement_y": "lateral", "displacement_z": "vertical", "rotation_x": "torsion"}
 _HELD_BY = dict(zip(BEARING_QUANTITIES, ("x", "y", "z", "roll", "pitch", "yaw"), strict=True))
-_LINE_MOTION = {"force_x": ("axial", 0), "force_y": ("lateral", 1), "force_z": ("vertical", 2), "moment_x": ("torsion", 3)}
+_LINE_MOTION = {
+    "force_x": ("axial", 0),
+    "force_y": ("lateral", 1),
+    "force_z": ("vertical", 2),
+    "moment_x": ("torsion", 3),
+}
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 
@@ -48,7 +51,8 @@ class BeamRecovery:
 
     Parameters
     ----------
-    beam : Beam
+    mesh : Mesh
+        Of the beam.
     frequencies_hz : ndarray, shape (m,)
         Of the deck's modes.
     vectors : ndarray, shape (freedoms, m)
@@ -57,27 +61,32 @@ class BeamRecovery:
 
     lacks = ""
 
-    def __init__(self, beam: Beam, frequencies_hz: np.ndarray, vectors: np.ndarray) -> None:
-        self.beam = beam
+    def __init__(self, mesh: Mesh, frequencies_hz: np.ndarray, vectors: np.ndarray) -> None:
+        self.mesh, self.beam = mesh, mesh.beam
         self._vectors, self._omega2 = vectors, (2 * np.pi * frequencies_hz) ** 2
         self._lines: dict[tuple, Line | None] = {}
 
     def section(self, quantity: str, x: float) -> Line | None:
-        """Return the line of a displacement or section force at x (m); at an inner bearing the face just before it."""
+        """Return the line of a displacement or section force at x (m); at an inner bearing the face
+        just before it."""
         errors.choice("quantity", quantity, SECTION_QUANTITIES)
-        x = errors.number("x", x, least=0.0, most=self.beam.length, unit="m", remedy="x runs along the deck")
+        x = errors.number(
+            "x", x, least=0.0, most=self.beam.length, unit="m", remedy="x runs along the deck"
+        )
         return self._cached((quantity, float(x)), self._section, quantity, x)
 
     def reaction(self, quantity: str, support: float) -> Line | None:
-        """Return the line of a reaction on the deck at the bearing line `support` (m): all bearings there, about the axis."""
+        """Return the line of a reaction on the deck at the bearing line `support` (m): all bearings
+        there, about the axis."""
         errors.choice("quantity", quantity, REACTION_QUANTITIES)
         return self._cached((quantity, float(support), "line"), self._reaction, quantity, support)
 
     def bearing(self, number: int, quantity: str) -> Line | None:
-        """Return the line of the force or moment of one bearing (from 1) on the deck, None where it holds no such freedom.
+        """Return the line of the force or moment of one bearing (from 1) on the deck, None where it
+        holds no such freedom.
 
-        Rigid bearings on one section that share a force which statics alone does not split, as two that both hold y, share it
-        as equally stiff ones would.
+        Rigid bearings on one section that share a force which statics alone does not split, as two
+        that both hold y, share it as equally stiff ones would.
         """
         errors.choice("quantity", quantity, BEARING_QUANTITIES)
         index = errors.integer("bearing", number, least=1, most=len(self.beam.bearings)) - 1
@@ -93,7 +102,7 @@ class BeamRecovery:
         if name not in self.beam.fields:
             return None
         component = ("lateral", "vertical", "torsion").index(name)
-        mesh = self.beam.mesh
+        mesh = self.mesh
         e = max(int(np.searchsorted(mesh.edges, x - 1e-9 * self.beam.length)) - 1, 0)
         h = mesh.h[e]
         cut = float(np.clip((x - mesh.edges[e]) / h, 0.0, 1.0))
@@ -133,11 +142,17 @@ class BeamRecovery:
         return jump, turn
 
     def _reaction(self, quantity: str, support: float) -> Line | None:
-        mesh, (name, place) = self.beam.mesh, _LINE_MOTION[quantity]
+        mesh, (name, place) = self.mesh, _LINE_MOTION[quantity]
         here = [b for b in self.beam.bearings if abs(b.x - support) < 1e-9 * self.beam.length]
         # A couple about the axis is also held by forces beside it or below it.
-        holds = {"moment_x": lambda b: "roll" in b.held or ("z" in b.held and b.y != 0.0) or ("y" in b.held and b.z != 0.0)}
-        if name not in self.beam.fields or not any(holds.get(quantity, lambda b: _HELD_BY[quantity] in b.held)(b) for b in here):
+        holds = {
+            "moment_x": lambda b: (
+                "roll" in b.held or ("z" in b.held and b.y != 0.0) or ("y" in b.held and b.z != 0.0)
+            )
+        }
+        if name not in self.beam.fields or not any(
+            holds.get(quantity, lambda b: _HELD_BY[quantity] in b.held)(b) for b in here
+        ):
             return None
         ground = np.zeros(mesh.size)
         ground[6 * mesh.line(support) + place] = 1.0
@@ -146,7 +161,7 @@ class BeamRecovery:
         return self._line(moved, mesh.interpolate(moved))
 
     def _bearing(self, index: int, freedom: str) -> Line | None:
-        mesh, bearing = self.beam.mesh, self.beam.bearings[index]
+        mesh, bearing = self.mesh, self.beam.bearings[index]
         if freedom not in bearing.held or not np.any(mesh.row(index, freedom)):
             return None
         node, load = mesh.places[index], np.zeros(mesh.size)
@@ -162,25 +177,41 @@ class BeamRecovery:
 
     @cached_property
     def _inertia(self) -> np.ndarray:
-        """Nodal loads of the modes' own inertia, omega^2 M phi, and last those of a unit vertical acceleration."""
-        mesh = self.beam.mesh
+        """Nodal loads of the modes' own inertia, omega^2 M phi, and last those of a unit vertical
+        acceleration."""
+        mesh = self.mesh
         lifted = np.zeros(mesh.size)
         lifted[2 : 6 * len(mesh.nodes) : 6] = 1.0
         return mesh.matrices[1] @ np.column_stack([self._vectors * self._omega2, lifted])
 
-    def _line(self, moved: np.ndarray, influence: PiecewiseCubic, modal: np.ndarray | float = 0.0, weight: float = 0.0) -> Line:
-        """Attach the modal values: the static effect of each mode's own inertia load, S_m = omega^2 int line m phi dx.
+    def _line(
+        self,
+        moved: np.ndarray,
+        influence: PiecewiseCubic,
+        modal: np.ndarray | float = 0.0,
+        weight: float = 0.0,
+    ) -> Line:
+        """Attach the modal values: the static effect of each mode's own inertia load, S_m = omega^2
+        int line m phi dx.
 
-        `moved` is the influence line in nodal freedoms; `modal` and `weight` add what it lacks inside one element.
+        `moved` is the influence line in nodal freedoms; `modal` and `weight` add what it lacks
+        inside one element.
         """
         total = moved @ self._inertia
         return Line(total[:-1] + modal, influence, float(-G * (total[-1] + weight)))
 
     def _own_inertia(
-        self, name: str, e: int, cut: float, jump: np.ndarray, turn: np.ndarray, taken_off: np.ndarray
+        self,
+        name: str,
+        e: int,
+        cut: float,
+        jump: np.ndarray,
+        turn: np.ndarray,
+        taken_off: np.ndarray,
     ) -> tuple[np.ndarray, float]:
-        """Return the inertia of every mode, and of a unit vertical acceleration, on g less its interpolation in element e."""
-        beam, mesh = self.beam, self.beam.mesh
+        """Return the inertia of every mode, and of a unit vertical acceleration, on g less its
+        interpolation in element e."""
+        beam, mesh = self.beam, self.mesh
         h = mesh.h[e]
         s = np.concatenate([cut * (_POINTS + 1) / 2, cut + (1.0 - cut) * (_POINTS + 1) / 2])
         dx = h * np.concatenate([cut * _WEIGHTS, (1.0 - cut) * _WEIGHTS]) / 2
@@ -190,12 +221,16 @@ class BeamRecovery:
 
         def shape(other: str) -> np.ndarray:
             return (
-                mesh.shape_matrix(other, e) @ self._vectors[mesh.freedoms[other][e]] if other in beam.fields else np.zeros((4, 1))
+                mesh.shape_matrix(other, e) @ self._vectors[mesh.freedoms[other][e]]
+                if other in beam.fields
+                else np.zeros((4, 1))
             )
 
         z = beam.centroid_height
         if name == "torsion":
-            carried = (beam.polar_inertia + beam.mass * z**2) * shape("torsion") - beam.mass * z * shape("lateral")
+            carried = (beam.polar_inertia + beam.mass * z**2) * shape(
+                "torsion"
+            ) - beam.mass * z * shape("lateral")
         elif name == "lateral":
             carried = beam.mass * (shape("lateral") - z * shape("torsion"))
         else:
@@ -204,19 +239,31 @@ class BeamRecovery:
         if name in BENDING and beam.rotary_inertia(name):
             turned = rotation_powers(mesh.h[e : e + 1], mesh.phi[name][e : e + 1])[0]
             own_turn = behind @ turn - powers @ (turned @ taken_off)
-            modal = modal + beam.rotary_inertia(name) * (own_turn * dx) @ powers @ turned @ shape(name)
+            modal = modal + beam.rotary_inertia(name) * (own_turn * dx) @ powers @ turned @ shape(
+                name
+            )
         return self._omega2 * modal, beam.mass * float(own @ dx) if name == "vertical" else 0.0
 
 
-def _cut(shape: PiecewiseCubic, e: int, cut: float, component: int, jump: np.ndarray) -> PiecewiseCubic:
-    """Cut element e in two at the local coordinate `cut`, and add `jump`, powers of (s - cut), behind it."""
+def _cut(
+    shape: PiecewiseCubic, e: int, cut: float, component: int, jump: np.ndarray
+) -> PiecewiseCubic:
+    """Cut element e in two at the local coordinate `cut`, and add `jump`, powers of (s - cut),
+    behind it."""
     halves = []
     for start, length in ((0.0, cut), (cut, 1.0 - cut)):
         # Powers of s = start + length t in powers of t.
-        turn = np.array([[comb(k, j) * start ** (k - j) * length**j if k >= j else 0.0 for k in range(4)] for j in range(4)])
+        turn = np.array(
+            [
+                [comb(k, j) * start ** (k - j) * length**j if k >= j else 0.0 for k in range(4)]
+                for j in range(4)
+            ]
+        )
         halves.append(np.einsum("jk,knc->jnc", turn, shape.coefficients[e]))
     halves[1][:, 0, component] += jump * (1.0 - cut) ** np.arange(4)
     kept = [half for half, length in zip(halves, (cut, 1.0 - cut), strict=True) if length > 0.0]
     inner = [shape.edges[e] + cut * (shape.edges[e + 1] - shape.edges[e])] if len(kept) == 2 else []
     edges = np.concatenate([shape.edges[: e + 1], inner, shape.edges[e + 1 :]])
-    return PiecewiseCubic(edges, np.concatenate([shape.coefficients[:e], kept, shape.coefficients[e + 1 :]]))
+    return PiecewiseCubic(
+        edges, np.concatenate([shape.coefficients[:e], kept, shape.coefficients[e + 1 :]])
+    )

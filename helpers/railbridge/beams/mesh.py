@@ -1,9 +1,10 @@
 r"""Finite elements of a straight beam on bearings: assembled matrices and named modes.
 
-Four fields (see `elements`): axial u of the centroid, lateral v and vertical w of the deck axis, which runs through the
-shear centres, and twist theta. The beam itself couples only v and theta, by a centroid off the axis: the velocity of the
-mass is that of v - z_c theta. Bearings off the axis couple the rest (see `bearings`): rigid ones are eliminated node by
-node, springs are added. Freedoms at a node: u, v, w, theta_x, psi_v = theta_z and psi_w = -theta_y, which are v' and w'
+Four fields (see `elements`): axial u of the centroid, lateral v and vertical w of the deck axis,
+which runs through the shear centres, and twist theta. The beam itself couples only v and theta, by
+a centroid off the axis: the velocity of the mass is that of v - z_c theta. Bearings off the axis
+couple the rest (see `bearings`): rigid ones are eliminated node by node, springs are added.
+Freedoms at a node: u, v, w, theta_x, psi_v = theta_z and psi_w = -theta_y, which are v' and w'
 without shear flexibility.
 
 Where simple spans meet there are two nodes at one place, and shapes may jump.
@@ -13,7 +14,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.linalg import eigh
@@ -26,14 +26,22 @@ from . import elements
 from .bearings import null_space
 from .eigen import count_below, factorised, lowest
 from .elements import FIELDS
-
-if TYPE_CHECKING:
-    from .beam import Beam
+from .properties import BeamProperties
 
 __all__ = ["FIELDS", "BeamModes", "Mesh"]
 
-_PLACE = {"axial": (0,), "lateral": (1, 4), "vertical": (2, 5), "torsion": (3,)}  # of a field among a node's freedoms
-_LABELS = {"axial": "axial", "lateral": "lateral bending", "vertical": "vertical bending", "torsion": "torsion"}
+_PLACE = {
+    "axial": (0,),
+    "lateral": (1, 4),
+    "vertical": (2, 5),
+    "torsion": (3,),
+}  # of a field among a node's freedoms
+_LABELS = {
+    "axial": "axial",
+    "lateral": "lateral bending",
+    "vertical": "vertical bending",
+    "torsion": "torsion",
+}
 MIXED = (0.25, 0.75)
 """Share of axial kinetic energy between which a mode is called axial-bending."""
 DENSE = 400
@@ -49,10 +57,12 @@ class BeamModes:
     ----------
     frequencies_hz : ndarray, shape (m,)
     names : tuple of str
-        ``vertical bending 1``, ``lateral bending 1``, ``torsion 1``, ``axial 1``, ``axial-bending 1`` ..., each numbered
-        within its kind. A mode is named after the field that holds most of its kinetic energy, that of the mass's own
-        lateral motion counted as lateral; but ``axial-bending`` where neither the axial share nor the rest reaches three
-        quarters, as with bearings below the axis. (Strain energy would be of no use on soft bearings, which hold most of it.)
+        ``vertical bending 1``, ``lateral bending 1``, ``torsion 1``, ``axial 1``, ``axial-bending
+        1`` ..., each numbered within its kind. A mode is named after the field that holds most of
+        its kinetic energy, that of the mass's own lateral motion counted as lateral; but
+        ``axial-bending`` where neither the axial share nor the rest reaches three quarters, as with
+        bearings below the axis. (Strain energy would be of no use on soft bearings, which hold most
+        of it.)
     vectors : ndarray, shape (freedoms, m)
         Mass-normalised.
     energies : dict of ndarray, shape (m,)
@@ -66,12 +76,14 @@ class BeamModes:
 
     @property
     def excitable(self) -> np.ndarray:
-        """Which modes loads on the deck can excite, those that move it sideways, up or in twist, shape (m,)."""
+        """Which modes loads on the deck can excite, those that move it sideways, up or in twist,
+        shape (m,)."""
         return self.energies["axial"] < 1.0 - 1e-12
 
 
 class Mesh:
-    """Assembled matrices over given elements. Freedoms: six a node, then axial and twist mid-nodes of each element.
+    """Assembled matrices over given elements. Freedoms: six a node, then axial and twist mid-nodes
+    of each element.
 
     Attributes
     ----------
@@ -85,7 +97,7 @@ class Mesh:
         Of each field of each element.
     """
 
-    def __init__(self, beam: Beam, edges: np.ndarray) -> None:
+    def __init__(self, beam: BeamProperties, edges: np.ndarray) -> None:
         self.beam, self.edges = beam, edges
         self.h = np.diff(edges)
         count = len(self.h)
@@ -103,11 +115,16 @@ class Mesh:
             "lateral": np.stack([start + 1, start + 4, stop + 1, stop + 4], axis=1),
             "vertical": np.stack([start + 2, start + 5, stop + 2, stop + 5], axis=1),
         }
-        self.phi = {name: np.full(count, beam.shear_flexibility(name)) * 12.0 / self.h**2 for name in FIELDS}
-        self.shapes = {name: elements.shape_matrices(name, self.h, self.phi[name]) for name in FIELDS}
+        self.phi = {
+            name: np.full(count, beam.shear_flexibility(name)) * 12.0 / self.h**2 for name in FIELDS
+        }
+        self.shapes = {
+            name: elements.shape_matrices(name, self.h, self.phi[name]) for name in FIELDS
+        }
 
     def node(self, x: float, piece: int | None = None) -> int:
-        """Return the node at x (m); at a joint that of the given simple span (from 0), or else the first."""
+        """Return the node at x (m); at a joint that of the given simple span (from 0), or else the
+        first."""
         distance = np.abs(self.nodes - x)
         if piece is not None:
             distance = np.where(self._pieces == piece, distance, np.inf)
@@ -145,7 +162,10 @@ class Mesh:
         parts = [("torsion", "torsion", mass * z**2)]
         if "lateral" in self.beam.fields:
             parts += [("lateral", "torsion", -mass * z), ("torsion", "lateral", -mass * z)]
-        return [(dofs[a], dofs[b], size * elements.coupling(self.h, self.shapes[a], self.shapes[b])) for a, b, size in parts]
+        return [
+            (dofs[a], dofs[b], size * elements.coupling(self.h, self.shapes[a], self.shapes[b]))
+            for a, b, size in parts
+        ]
 
     @cached_property
     def matrices(self) -> tuple[csr_array, csr_array]:
@@ -156,8 +176,12 @@ class Mesh:
 
     def _assembled(self, parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> csr_array:
         """Add up parts, each with rows (e, n1), columns (e, n2) and values (e, n1, n2)."""
-        rows = np.concatenate([np.broadcast_to(r[:, :, None], v.shape).ravel() for r, _, v in parts])
-        columns = np.concatenate([np.broadcast_to(c[:, None, :], v.shape).ravel() for _, c, v in parts])
+        rows = np.concatenate(
+            [np.broadcast_to(r[:, :, None], v.shape).ravel() for r, _, v in parts]
+        )
+        columns = np.concatenate(
+            [np.broadcast_to(c[:, None, :], v.shape).ravel() for _, c, v in parts]
+        )
         values = np.concatenate([v.ravel() for _, _, v in parts])
         return coo_array((values, (rows, columns)), shape=(self.size, self.size)).tocsr()
 
@@ -174,15 +198,22 @@ class Mesh:
         return np.array(sorted(p for name in self.beam.fields for p in _PLACE[name]))
 
     def row(self, bearing: int, freedom: str) -> np.ndarray:
-        """Return the motion of a bearing (from 0) from its node's freedoms, those the beam lacks at rest, shape (6,)."""
+        """Return the motion of a bearing (from 0) from its node's freedoms, those the beam lacks at
+        rest, shape (6,)."""
         row = np.zeros(6)
         whole = self.beam.bearings[bearing].row(freedom, self.beam.centroid_height)
         row[self._present] = whole[self._present]
         return row
 
     def rigid_rows(self, node: int) -> tuple[list[tuple[int, str]], np.ndarray]:
-        """Return which bearings hold which freedoms of a node rigidly, and the rows that say so, shape (r, 6)."""
-        keys = [(i, f) for i, n in enumerate(self.places) if n == node for f in self.beam.bearings[i].fixed]
+        """Return which bearings hold which freedoms of a node rigidly, and the rows that say so,
+        shape (r, 6)."""
+        keys = [
+            (i, f)
+            for i, n in enumerate(self.places)
+            if n == node
+            for f in self.beam.bearings[i].fixed
+        ]
         return keys, np.array([self.row(*key) for key in keys]).reshape(-1, 6)
 
     @cached_property
@@ -191,13 +222,19 @@ class Mesh:
         held = set(self.places)
         rows, columns, values, count = [], [], [], 0
         for node in range(len(self.nodes)):
-            allowed = null_space(self.rigid_rows(node)[1][:, self._present]) if node in held else np.eye(len(self._present))
+            allowed = (
+                null_space(self.rigid_rows(node)[1][:, self._present])
+                if node in held
+                else np.eye(len(self._present))
+            )
             i, j = np.nonzero(allowed)
             rows.append(6 * node + self._present[i])
             columns.append(count + j)
             values.append(allowed[i, j])
             count += allowed.shape[1]
-        middles = np.concatenate([self.freedoms[n][:, 1] for n in ("axial", "torsion") if n in self.beam.fields] or [[]])
+        middles = np.concatenate(
+            [self.freedoms[n][:, 1] for n in ("axial", "torsion") if n in self.beam.fields] or [[]]
+        )
         rows.append(middles.astype(int))
         columns.append(count + np.arange(len(middles)))
         values.append(np.ones(len(middles)))
@@ -207,11 +244,19 @@ class Mesh:
     @cached_property
     def stiffness(self) -> csr_array:
         """K with the springs of the bearings, shape (size, size)."""
-        springs = [(i, f, size) for i, bearing in enumerate(self.beam.bearings) for f, size in bearing.stiffness.items()]
+        springs = [
+            (i, f, size)
+            for i, bearing in enumerate(self.beam.bearings)
+            for f, size in bearing.stiffness.items()
+        ]
         if not springs:
             return self.matrices[0]
         rows = np.array([self.row(i, freedom) for i, freedom, _ in springs])
-        values = np.array([size for *_, size in springs])[:, None, None] * rows[:, :, None] * rows[:, None, :]
+        values = (
+            np.array([size for *_, size in springs])[:, None, None]
+            * rows[:, :, None]
+            * rows[:, None, :]
+        )
         dofs = np.array([6 * self.places[i] for i, *_ in springs])[:, None] + np.arange(6)
         return self.matrices[0] + self._assembled([(dofs, dofs, values)])
 
@@ -229,13 +274,15 @@ class Mesh:
     # ---- modes
 
     def modes(self, wanted: int | None = None) -> BeamModes:
-        """Solve each uncoupled group of freedoms on its own: a straight beam on bearings in its axis falls into four.
+        """Solve each uncoupled group of freedoms on its own: a straight beam on bearings in its
+        axis falls into four.
 
         Parameters
         ----------
         wanted : int, optional
-            How many modes that loads can excite are needed; the lowest ones, and all others among them. By default all modes of
-            the mesh are given, which costs the cube of the freedoms that bearings couple; few modes cost their number only.
+            How many modes that loads can excite are needed; the lowest ones, and all others among
+            them. By default all modes of the mesh are given, which costs the cube of the freedoms
+            that bearings couple; few modes cost their number only.
         """
         k, m = self._reduced(self.stiffness), self._reduced(self.matrices[1])
         pattern = abs(k) + abs(m)
@@ -245,16 +292,25 @@ class Mesh:
         enough = wanted
         while True:
             found = self._lowest(k, m, groups, enough)
-            if wanted is None or len(found.names) == k.shape[0] or int(np.sum(found.excitable)) >= wanted:
+            if (
+                wanted is None
+                or len(found.names) == k.shape[0]
+                or int(np.sum(found.excitable)) >= wanted
+            ):
                 return found
             enough *= 2
 
-    def _lowest(self, k: csr_array, m: csr_array, groups: list[np.ndarray], count: int | None) -> BeamModes:
-        """Return the `count` lowest modes and some more, as far as every group is known; all modes if None."""
+    def _lowest(
+        self, k: csr_array, m: csr_array, groups: list[np.ndarray], count: int | None
+    ) -> BeamModes:
+        """Return the `count` lowest modes and some more, as far as every group is known; all modes
+        if None."""
         solved, known = [], np.inf
         for here in groups:
             own = k[here][:, here], m[here][:, here]
-            solved.append(eigh(*(a.toarray() for a in own)) if count is None else _lowest_of(*own, count))
+            solved.append(
+                eigh(*(a.toarray() for a in own)) if count is None else _lowest_of(*own, count)
+            )
             if len(solved[-1][0]) < len(here):
                 known = min(known, solved[-1][0][-1])
         squares = np.concatenate([values for values, _ in solved])
@@ -267,7 +323,9 @@ class Mesh:
             own = np.flatnonzero(whose[order] == g)
             vectors[:, own] = self.basis[:, here] @ solved[g][1][:, order[own] - firsts[g]]
         energies = self._energies(vectors)
-        return BeamModes(np.sqrt(squares[order]) / (2 * np.pi), _names(energies), _signed(vectors), energies)
+        return BeamModes(
+            np.sqrt(squares[order]) / (2 * np.pi), _names(energies), _signed(vectors), energies
+        )
 
     def _energies(self, vectors: np.ndarray) -> dict[str, np.ndarray]:
         """Return the share of each field in the kinetic energy of every mode."""
@@ -292,11 +350,13 @@ class Mesh:
 
 
 def _lowest_of(k: csr_array, m: csr_array, wanted: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return omega^2 and shapes of one group of freedoms: at least the `wanted` lowest, none left out below the last."""
+    """Return omega^2 and shapes of one group of freedoms: at least the `wanted` lowest, none left
+    out below the last."""
     size, more = k.shape[0], wanted + _SPARE
     if size > DENSE and more < size // 4:
         values, shapes = lowest(csc_array(k), csc_array(m), more)
-        # Counted where two modes are farthest apart: there round-off cannot put one on the wrong side.
+        # Counted where two modes are farthest apart: there round-off cannot put one on the wrong
+        # side.
         last = wanted + int(np.argmax(values[wanted:] / values[wanted - 1 : -1]))
         if count_below(k, m, float(np.sqrt(values[last - 1] * values[last]))) == last:
             return values[:last], shapes[:, :last]

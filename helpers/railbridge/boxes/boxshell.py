@@ -1,37 +1,48 @@
-"""The shell of a box girder: points and strips of its section, stations, diaphragms, pads under its webs."""
+"""The shell of a box girder: points and strips of its section, stations, diaphragms, pads under its
+webs."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import Annotated
 
 import numpy as np
 
-from .. import errors
+from ..errors import Range, check_fields
+from .dimensions import BoxDimensions
 from .pads import Pad
-from .shell import Plate, Shell, Strip
-
-if TYPE_CHECKING:
-    from .girder import Box
+from .plates import Plate, Strip
+from .shell import Shell
 
 __all__ = ["BoxMesh", "shell_of"]
+
+_JOINS_NOTHING = "A web without elements across joins nothing"
 
 
 @dataclass(frozen=True)
 class BoxMesh:
-    """Numbers of elements of the shell: along each span, over a web's height, between the webs, over a cantilever."""
+    """Numbers of elements of a box's shell.
 
-    along: int = 40
-    web: int = 4
-    slab: int = 6
-    cantilever: int = 3
+    Attributes
+    ----------
+    along : int
+        Elements along each span.
+    web : int
+        Elements over a web's height.
+    slab : int
+        Elements between the webs, in slab and bottom.
+    cantilever : int
+        Elements over a cantilever.
+    """
+
+    along: Annotated[int, Range(least=4, most=400, whole=True)] = 40
+    web: Annotated[int, Range(least=1, most=50, whole=True, remedy=_JOINS_NOTHING)] = 4
+    slab: Annotated[int, Range(least=2, most=100, whole=True)] = 6
+    cantilever: Annotated[int, Range(least=1, most=50, whole=True)] = 3
 
     def __post_init__(self) -> None:
-        errors.integer("mesh.along", self.along, least=4, most=400)
-        errors.integer("mesh.web", self.web, least=1, most=50, remedy="A web without elements across joins nothing")
-        errors.integer("mesh.slab", self.slab, least=2, most=100)
-        errors.integer("mesh.cantilever", self.cantilever, least=1, most=50)
+        check_fields(self)
 
     def refined(self, factor: float) -> BoxMesh:
         """Return a mesh with `factor` times as many elements each way."""
@@ -43,12 +54,13 @@ class BoxMesh:
         return self.cantilever, self.cantilever + self.slab
 
 
-def shell_of(box: Box, mesh: BoxMesh) -> Shell:
+def shell_of(box: BoxDimensions, mesh: BoxMesh) -> Shell:
     """Return the shell of a box.
 
-    Plates lie in the middle planes; a cantilever's runs straight from the web's head to its edge. Where a web runs into
-    the slab it would be counted twice: that strip carries shear only (see `Strip.counted`). At the bottom corners what
-    is counted twice and what is left out are equal. What mass is still missing beside the drawing lies on the webs' heads.
+    Plates lie in the middle planes; a cantilever's runs straight from the web's head to its edge.
+    Where a web runs into the slab it would be counted twice: that strip carries shear only (see
+    `Strip.counted`). At the bottom corners what is counted twice and what is left out are equal.
+    What mass is still missing beside the drawing lies on the webs' heads.
     """
     web, edge = box.web_spacing / 2, box.slab_width / 2
     y = np.concatenate(
@@ -60,7 +72,9 @@ def shell_of(box: Box, mesh: BoxMesh) -> Shell:
     )
     top, low = box.depth - box.head_thickness / 2, box.bottom_thickness / 2
     outer = np.interp(np.abs(y), [web, edge], [top, box.depth - box.edge_thickness / 2])
-    points = [np.column_stack([y, np.where(np.abs(y) > web, outer, box.depth - box.thickness(y) / 2)])]
+    points = [
+        np.column_stack([y, np.where(np.abs(y) > web, outer, box.depth - box.thickness(y) / 2)])
+    ]
     heads = mesh.heads
     strips = []
     for i in range(len(y) - 1):
@@ -68,7 +82,11 @@ def shell_of(box: Box, mesh: BoxMesh) -> Shell:
         added = box.track_mass / box.web_spacing if part == "slab" else 0.0
         # The mean over the strip keeps the mass of cantilevers and haunches.
         share = (np.arange(20) + 0.5) / 20
-        strips.append(Strip(i, i + 1, float(box.thickness(y[i] + share * (y[i + 1] - y[i])).mean()), part, added))
+        strips.append(
+            Strip(
+                i, i + 1, float(box.thickness(y[i] + share * (y[i + 1] - y[i])).mean()), part, added
+            )
+        )
     heights = np.linspace(low, box.depth - box.head_thickness, mesh.web + 1)
     feet, count = [], len(y)
     for side, head in zip((1, -1), heads, strict=True):
@@ -76,12 +94,16 @@ def shell_of(box: Box, mesh: BoxMesh) -> Shell:
         ids = [*range(count, count + len(heights)), head]
         feet.append(count)
         count += len(heights)
-        strips += [Strip(a, b, box.web_thickness, "webs") for a, b in zip(ids[:-2], ids[1:-1], strict=True)]
+        strips += [
+            Strip(a, b, box.web_thickness, "webs") for a, b in zip(ids[:-2], ids[1:-1], strict=True)
+        ]
         strips.append(Strip(ids[-2], ids[-1], box.web_thickness, "webs", counted=False))
     across = np.linspace(box.bottom_spacing / 2, -box.bottom_spacing / 2, mesh.slab + 1)
     points.append(np.column_stack([across[1:-1], np.full(mesh.slab - 1, low)]))
     ids = [feet[0], *range(count, count + mesh.slab - 1), feet[1]]
-    strips += [Strip(a, b, box.bottom_thickness, "bottom") for a, b in zip(ids[:-1], ids[1:], strict=True)]
+    strips += [
+        Strip(a, b, box.bottom_thickness, "bottom") for a, b in zip(ids[:-1], ids[1:], strict=True)
+    ]
     shell = Shell(
         np.concatenate(points),
         tuple(strips),
@@ -101,24 +123,26 @@ def shell_of(box: Box, mesh: BoxMesh) -> Shell:
     return replace(shell, line_masses=masses)
 
 
-def _stations(box: Box, mesh: BoxMesh) -> np.ndarray:
+def _stations(box: BoxDimensions, mesh: BoxMesh) -> np.ndarray:
     places = [np.linspace(a, b, mesh.along + 1) for a, b in pairwise(box.span_ends)]
     ends = [[-box.overhang], [box.length + box.overhang]] if box.overhang else []
     return np.unique(np.round(np.concatenate([*places, *ends, _diaphragm_places(box)]), 9))
 
 
-def _diaphragm_places(box: Box) -> np.ndarray:
+def _diaphragm_places(box: BoxDimensions) -> np.ndarray:
     """Bearing lines, which may lie inside a span, too, and inner diaphragms, m."""
     inner = [np.linspace(a, b, box.inner_diaphragms + 2)[1:-1] for a, b in pairwise(box.span_ends)]
     return np.unique(np.round(np.concatenate([_bearing_lines(box), *inner]), 9))
 
 
-def _bearing_lines(box: Box) -> np.ndarray:
+def _bearing_lines(box: BoxDimensions) -> np.ndarray:
     """Places of bearings, m."""
     return np.unique(np.round([p.x for p in box.bearings], 9))
 
 
-def _diaphragms(box: Box, points: np.ndarray, heads: tuple[int, int], heights: np.ndarray) -> tuple[Plate, ...]:
+def _diaphragms(
+    box: BoxDimensions, points: np.ndarray, heads: tuple[int, int], heights: np.ndarray
+) -> tuple[Plate, ...]:
     """Plates across; their grid joins the nodes of slab, webs and bottom."""
     slab = points[heads[0] : heads[1] + 1]
     low = heights[0]
@@ -131,5 +155,7 @@ def _diaphragms(box: Box, points: np.ndarray, heads: tuple[int, int], heights: n
         axis=2,
     )
     lines, places = _bearing_lines(box), _diaphragm_places(box).tolist()
-    thickness = [box.diaphragm_thickness if x in lines else box.inner_diaphragm_thickness for x in places]
+    thickness = [
+        box.diaphragm_thickness if x in lines else box.inner_diaphragm_thickness for x in places
+    ]
     return tuple(Plate(x, t, grid) for x, t in zip(places, thickness, strict=True) if t is not None)

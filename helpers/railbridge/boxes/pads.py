@@ -1,9 +1,10 @@
 r"""What the bearings of a shell hold: pads of stated size under points of its section.
 
-A force on a shell at one point, in the plane of a web, has no mesh limit: the displacement under it grows with the logarithm
-of the element size, and frequencies sink for ever. A bearing therefore acts on a pad: it holds, rigidly or by springs, the
-*mean* displacement of the web's foot over the pad's length. The mean leaves the foot free to turn, as a bearing does, and is
-an integral of the finite-element field, so that pads need no mesh of their own.
+A force on a shell at one point, in the plane of a web, has no mesh limit: the displacement under it
+grows with the logarithm of the element size, and frequencies sink for ever. A bearing therefore
+acts on a pad: it holds, rigidly or by springs, the *mean* displacement of the web's foot over the
+pad's length. The mean leaves the foot free to turn, as a bearing does, and is an integral of the
+finite-element field, so that pads need no mesh of their own.
 """
 
 from __future__ import annotations
@@ -46,8 +47,11 @@ class Pad:
     stiffness: dict[str, float] = field(default_factory=dict)
 
 
-def held(pads: Sequence[Pad], stations: np.ndarray, points: int, size: int) -> list[tuple[csr_array, float]]:
-    """Return what pads hold: rows over all freedoms that give mean displacements, and their stiffness (inf: rigid).
+def held(
+    pads: Sequence[Pad], stations: np.ndarray, points: int, size: int
+) -> list[tuple[csr_array, float]]:
+    """Return what pads hold: rows over all freedoms that give mean displacements, and their
+    stiffness (inf: rigid).
 
     Parameters
     ----------
@@ -64,7 +68,10 @@ def held(pads: Sequence[Pad], stations: np.ndarray, points: int, size: int) -> l
     list of (csr_array, shape (1, size); float, N/m)
     """
     return [
-        (_mean(pad, direction, stations, points, size), np.inf if direction in pad.fixed else pad.stiffness[direction])
+        (
+            _mean(pad, direction, stations, points, size),
+            np.inf if direction in pad.fixed else pad.stiffness[direction],
+        )
         for pad in pads
         for direction in DIRECTIONS
         if direction in pad.fixed or direction in pad.stiffness
@@ -74,8 +81,8 @@ def held(pads: Sequence[Pad], stations: np.ndarray, points: int, size: int) -> l
 def _mean(pad: Pad, direction: str, stations: np.ndarray, points: int, size: int) -> csr_array:
     """Return the row that gives the pad's mean displacement in one direction.
 
-    The pad hangs `arm` below the point and turns with it: along x by the slope of the foot over the pad (the straight
-    line nearest to w), along y by the mean roll of the foot.
+    The pad hangs `arm` below the point and turns with it: along x by the slope of the foot over the
+    pad (the straight line nearest to w), along y by the mean roll of the foot.
     """
     station, mean, slope = _over(pad, stations)
     node = station * points + pad.point
@@ -91,7 +98,8 @@ def _mean(pad: Pad, direction: str, stations: np.ndarray, points: int, size: int
 
 
 def _over(pad: Pad, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the stations x under a pad and weights that give mean and slope of a linear field over it."""
+    """Return the stations x under a pad and weights that give mean and slope of a linear field over
+    it."""
     a, b = max(pad.x - pad.length / 2, x[0]), min(pad.x + pad.length / 2, x[-1])
     cuts = np.unique(np.concatenate([[a, b], x[(x > a) & (x < b)]]))
     # Two Gauss points integrate products of linear functions exactly on each piece.
@@ -110,14 +118,16 @@ def _over(pad: Pad, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def elimination(rows: Sequence[tuple[csr_array, float]], size: int) -> tuple[csr_array, np.ndarray]:
-    """Return what turns the freedoms that rigid bearings leave into all freedoms, and which are left; see `held`."""
+    """Return what turns the freedoms that rigid bearings leave into all freedoms, and which are
+    left; see `held`."""
     rigid = [row for row, stiffness in rows if np.isinf(stiffness)]
     if not rigid:
         return eye_array(size, format="csr"), np.arange(size)
     conditions = vstack(rigid).tocsr()
     used = np.unique(conditions.indices)
     block = conditions[:, used].toarray()
-    # One freedom of each condition follows from the others: that with the largest weight not yet taken.
+    # One freedom of each condition follows from the others: that with the largest weight not yet
+    # taken.
     gone: list[int] = []
     work = block.copy()
     for r in range(len(work)):
@@ -136,7 +146,8 @@ def elimination(rows: Sequence[tuple[csr_array, float]], size: int) -> tuple[csr
 
 
 def free_count(rows: Sequence[tuple[csr_array, float]], nodes: np.ndarray, length: float) -> int:
-    """Return how many of the six rigid-body motions of nodes, shape (n, 3), the rows of `held` leave free.
+    """Return how many of the six rigid-body motions of nodes, shape (n, 3), the rows of `held`
+    leave free.
 
     `length` (m) makes turning and moving comparable.
     """
@@ -151,4 +162,8 @@ def free_count(rows: Sequence[tuple[csr_array, float]], nodes: np.ndarray, lengt
     motions[:, :3, 5] = np.stack([-y, x, zero], axis=1)
     flat = motions.reshape(-1, 6)
     kept = np.array([(row @ flat).ravel() for row, _ in rows]).reshape(-1, 6)
-    return 6 - int(np.linalg.matrix_rank(kept * [1.0, 1.0, 1.0, *[1.0 / length] * 3], tol=1e-6)) if len(kept) else 6
+    return (
+        6 - int(np.linalg.matrix_rank(kept * [1.0, 1.0, 1.0, *[1.0 / length] * 3], tol=1e-6))
+        if len(kept)
+        else 6
+    )

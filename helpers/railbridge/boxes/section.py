@@ -1,6 +1,8 @@
-"""Section properties from an outline, by the library `sectionproperties` (finite elements over the section).
+"""Section properties from an outline, by the library `sectionproperties` (finite elements over the
+section).
 
-Axes are those of the deck: y to the left, z up. An outline is a list of corners, in order, without repeating the first.
+Axes are those of the deck: y to the left, z up. An outline is a list of corners, in order, without
+repeating the first.
 """
 
 from __future__ import annotations
@@ -28,7 +30,8 @@ class SectionProperties:
     product_moment : float
         I_yz, m4; zero for a section that is its own mirror image.
     torsion_constant : float
-        J of Saint-Venant, m4. Warping is free: wrong where the deck is short or a diaphragm keeps it plane.
+        J of Saint-Venant, m4. Warping is free: wrong where the deck is short or a diaphragm keeps
+        it plane.
     shear_area_lateral, shear_area_vertical : float
         m2, of Timoshenko's beam, from the energy of the shear stresses at the given Poisson ratio.
     centroid, shear_centre : tuple of (y, z)
@@ -63,7 +66,10 @@ class SectionProperties:
 
 
 def section_properties(
-    outline: np.ndarray, holes: tuple[np.ndarray, ...] = (), poisson_ratio: float = 0.2, largest: float | None = None
+    outline: np.ndarray,
+    holes: tuple[np.ndarray, ...] = (),
+    poisson_ratio: float = 0.2,
+    largest: float | None = None,
 ) -> SectionProperties:
     """Return the properties of a plane section.
 
@@ -75,33 +81,47 @@ def section_properties(
     poisson_ratio : float
         For the shear areas only.
     largest : float, optional
-        m2, largest triangle of the mesh; default a 500th of the area: J of a box is then within 0.5 %.
+        m2, largest triangle of the mesh; default a 500th of the area: J of a box is then within 0.5
+        %.
 
     Raises
     ------
     InputError
-        Fewer than three corners, an outline that crosses itself, a hole that is not inside, or a missing package.
+        Fewer than three corners, an outline that crosses itself, a hole that is not inside, or a
+        missing package.
 
-    Source: A, I by integration; J, shear areas and shear centre by the finite elements of `sectionproperties` (Pilkey 2002).
+    Source: A, I by integration; J, shear areas and shear centre by the finite elements of
+    `sectionproperties` (Pilkey 2002).
     """
-    outline = _corners("section: outline", outline)
-    holes = tuple(_corners(f"section: hole {i}", h) for i, h in enumerate(holes, start=1))
-    ratio = errors.number("section: poisson_ratio", poisson_ratio, above=-1.0, most=0.5)
+    outline = _corners("outline", outline)
+    holes = tuple(_corners(f"holes[{i}]", h) for i, h in enumerate(holes, start=1))
+    ratio = errors.number("poisson_ratio", poisson_ratio, above=-1.0, most=0.5)
     try:
         from sectionproperties.analysis import Section
         from sectionproperties.pre import Geometry, Material
         from shapely import Polygon
     except ImportError:
-        raise InputError("section", None, "the package sectionproperties is missing", 'Run: pip install -e ".[fem]"') from None
+        raise InputError(
+            "section",
+            None,
+            "the package sectionproperties is missing",
+            'Run: pip install -e ".[fem]"',
+        ) from None
     whole = Polygon(outline)
     for i, hole in enumerate(holes, start=1):
         if not whole.contains_properly(Polygon(hole)):
-            raise InputError(f"section: hole {i}", hole, "must lie inside the outline and not touch it")
+            raise InputError(
+                f"holes[{i}]", hole, "must lie inside the outline and not touch it"
+            )
     # A modulus of 1: the library's "modulus-weighted" results are then the plain ones.
     material = Material("unit", 1.0, ratio, 1.0, 1.0, "grey")
     geometry = Geometry(Polygon(outline, list(holes)), material)
     area = Polygon(outline, list(holes)).area
-    largest = area / 500 if largest is None else errors.number("section: largest", largest, above=0.0, most=area, unit="m2")
+    largest = (
+        area / 500
+        if largest is None
+        else errors.number("largest", largest, above=0.0, most=area, unit="m2")
+    )
     geometry.create_mesh([largest])
     section = Section(geometry)
     section.calculate_geometric_properties()
@@ -127,7 +147,12 @@ def _corners(field: str, corners) -> np.ndarray:
         result = np.asarray(corners, dtype=float)
     except (TypeError, ValueError):
         result = np.empty(0)
-    if result.ndim != 2 or result.shape[1:] != (2,) or len(result) < 3 or not np.isfinite(result).all():
+    if (
+        result.ndim != 2
+        or result.shape[1:] != (2,)
+        or len(result) < 3
+        or not np.isfinite(result).all()
+    ):
         raise InputError(field, corners, "must list at least three corners (y, z) in m")
     refuse_crossing(field, result)
     return result
@@ -139,7 +164,9 @@ def refuse_crossing(field: str, outline: np.ndarray) -> None:
     count = len(outline)
     for i in range(count):
         if np.allclose(a[i], b[i], atol=1e-12):
-            raise InputError(field, outline[i], "corner is given twice in a row", "Remove one of them")
+            raise InputError(
+                field, outline[i], "corner is given twice in a row", "Remove one of them"
+            )
         for j in range(i + 2, count if i else count - 1):
             if _cross(a[i], b[i], a[j], b[j]):
                 raise InputError(

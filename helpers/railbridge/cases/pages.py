@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import textwrap
+from itertools import zip_longest
 from typing import Any
 
 from pydantic_core import PydanticUndefined
@@ -130,8 +132,25 @@ _NOTES = {
     "train": "# One vehicle several times. Or a mixed train, without vehicle:\n"
     '# cars = ["power", { vehicle = "coach", count = 6 }, "power"]',
     "# train": "# Or bare axle loads instead of vehicles:",
-    "track": "# Leave [track] out for perfect rails.",
+    "track": "# Leave [track] out for perfect rails. A list adds irregularities up; rails that differ:\n"
+    '# { left = { ... }, right = { ... } }; measured: { kind = "table", x = [ ... ], r = [ ... ] }.',
 }
+
+
+_COMMENTS = 40
+"""Column of the comments, where the line leaves room."""
+
+
+def _commented(line: str, said: str) -> list[str]:
+    """Return a line with the first sentences of a meaning beside it."""
+    sentences = re.split(r"(?<=[.]) (?=[A-Z0-9])", said.replace("`", ""))
+    column = max(_COMMENTS, len(line) + 2)
+    if column > 60:
+        return [line]
+    words = textwrap.wrap(" ".join(sentences[:2]), max(98 - column, 30))
+    return [
+        f"{start:<{column}}# {part}" for start, part in zip_longest([line], words, fillvalue="")
+    ]
 
 
 def starter(name: str) -> str:
@@ -144,11 +163,13 @@ def starter(name: str) -> str:
     """
     lines = [_HEAD.format(name=name)]
     for title, (table, examples) in _EXAMPLES.items():
-        if not title.startswith("#"):
+        if title.startswith("#"):
+            lines.pop()  # no blank line before another way to say the same
+        else:
             lines.append(f"[{title}]")
         lines += [_NOTES[title]] if title in _NOTES else []
         for shown, value in examples.items():
-            said = table.model_fields[shown.removeprefix("# ")].description.replace("`", "")
-            lines += [f"{shown} = {value}".ljust(46) + f"# {said}"]
+            said = table.model_fields[shown.removeprefix("# ")].description
+            lines += _commented(f"{shown} = {value}", said)
         lines.append("")
-    return "\n".join(lines).replace("\n\n# Or bare", "\n# Or bare").rstrip() + "\n"
+    return "\n".join(lines[:-1]) + "\n"

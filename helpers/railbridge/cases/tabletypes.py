@@ -79,8 +79,9 @@ class Table(BaseModel):
 
 
 def table(
-    name: str,
+    title: str,
     about: str,
+    /,
     *,
     unknown_key: tuple[str, str] | None = None,
     schema: dict[str, Any] | None = None,
@@ -91,7 +92,7 @@ def table(
 
     Parameters
     ----------
-    name : str
+    title : str
     about : str
         What the table says.
     unknown_key : tuple of str, optional
@@ -103,7 +104,7 @@ def table(
     **keys
         See `key`, `fields_of`.
     """
-    made = create_model(name, __base__=base, __doc__=about, **keys)
+    made = create_model(title, __base__=base, __doc__=about, **keys)
     made.unknown_key = unknown_key
     made.model_config = {**made.model_config, "json_schema_extra": schema or {}}
     made.model_rebuild(force=True)

@@ -11,9 +11,8 @@ from matplotlib.patches import PathPatch, Polygon
 from matplotlib.path import Path
 
 from .. import errors
-from ..boxes.girder import Box
+from ..boxes import Box, Shell, ShellModes
 from ..boxes.section import SectionProperties
-from ..boxes.shell import Shell, ShellModes
 from .drawing import GREY, LOOKS, curve, finish, grid, one
 
 __all__ = ["assurance", "box_section", "shell_mode", "shell_modes"]
@@ -127,7 +126,7 @@ def shell_mode(shell: Shell, modes: ShellModes, mode: int, ax: Axes | None = Non
     word = (
         ""
         if not modes.names[i].startswith("local")
-        else f", {modes.parts[i]}, left and right {'alike' if modes.even[i] else 'opposite'}"
+        else f", {modes.parts[i]}, left and right {'alike' if modes.symmetric[i] else 'opposite'}"
     )
     finish(ax, title=f"{mode}: {modes.names[i]}, {modes.frequencies_hz[i]:.2f} Hz{word}")
     ax.set(

@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 
 from .. import errors
+from ..boxes import Box, BoxMesh, Pads
 from ..boxes.comparison import pairs
-from ..boxes.girder import Box, BoxMesh, Pads
 from ..boxes.motions import ShellModes
 from ..boxes.shell import Shell
 from . import published

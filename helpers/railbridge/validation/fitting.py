@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from .. import errors
-from ..boxes.girder import Box, BoxMesh
+from ..boxes import Box, BoxMesh
 from ..boxes.motions import ShellModes
 from . import published
 from .candidates import COARSE, HYPOTHESES, UNKNOWNS, Fit, box_of, evaluate, paired_modes

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from ..boxes import Box, BoxMesh
 from ..boxes.comparison import pairs, shell_against_beam
-from ..boxes.girder import Box, BoxMesh
 from ..boxes.pads import Pad
 from ..boxes.shell import Shell
 from ..cases import shelf

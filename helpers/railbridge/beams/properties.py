@@ -1,0 +1,344 @@
+"""A beam as data: spans, stiffnesses, mass and bearings, and what must hold between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Annotated
+
+import numpy as np
+
+from .. import errors
+from ..errors import InputError, Range, check_fields, within
+from .bearings import FARTHEST, Bearing, free_motions, on_deck
+from .elements import FIELDS
+
+__all__ = ["BeamProperties", "Section", "checked_spans"]
+
+_SHORTEST = 1e-3
+"""Shortest span or distance of bearings as a share of the length.
+
+The deck's lowest frequency then keeps five digits.
+"""
+
+_Length = Annotated[float, Range(above=0.0, unit="m")]
+_Bending = Annotated[float, Range(above=0.0, unit="N m2")]
+_Force = Annotated[float, Range(above=0.0, unit="N")]
+_PerMetre = Annotated[float, Range(above=0.0, unit="kg m")]
+
+
+def checked_spans(spans: Sequence[float]) -> tuple[float, ...]:
+    """Return the lengths of 1 to 30 spans, m, or refuse what are none."""
+    found = errors.numbers("spans", spans, above=0.0, unit="m")
+    if not 1 <= len(found) <= 30:
+        raise InputError("spans", list(spans), "must hold 1 to 30 spans")
+    return tuple(found.tolist())
+
+
+@dataclass(frozen=True)
+class Section:
+    """A beam's section and material.
+
+    Attributes
+    ----------
+    youngs_modulus : float
+        E, Pa.
+    poisson_ratio : float
+        nu.
+    density : float
+        kg/m3.
+    area : float
+        A, m2.
+    second_moment_vertical : float
+        I_y, m4: bending in the vertical plane.
+    second_moment_lateral : float
+        I_z, m4: bending sideways.
+    torsion_constant : float
+        J, m4.
+    shear_area_vertical : float, optional
+        kappa A for vertical shear, m2. Left out: rigid in shear.
+    shear_area_lateral : float, optional
+        kappa A for lateral shear, m2. Left out: rigid in shear.
+    """
+
+    youngs_modulus: Annotated[float, Range(above=0.0, unit="Pa")]
+    poisson_ratio: Annotated[float, Range(above=-1.0, most=0.5)]
+    density: Annotated[float, Range(above=0.0, unit="kg/m3")]
+    area: Annotated[float, Range(above=0.0, unit="m2")]
+    second_moment_vertical: Annotated[float, Range(above=0.0, unit="m4")]
+    second_moment_lateral: Annotated[float, Range(above=0.0, unit="m4")]
+    torsion_constant: Annotated[float, Range(above=0.0, unit="m4")]
+    shear_area_vertical: Annotated[float, Range(above=0.0, unit="m2")] | None = None
+    shear_area_lateral: Annotated[float, Range(above=0.0, unit="m2")] | None = None
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+    def of_beam(self, rotary_inertia: bool = False) -> dict[str, float]:
+        """Return what a `Beam` needs to know: mass, stiffnesses and inertias, SI, by its names.
+
+        Parameters
+        ----------
+        rotary_inertia : bool
+            Whether turning sections have inertia, density times second moments.
+        """
+        e = self.youngs_modulus
+        shear_modulus = e / (2 * (1 + self.poisson_ratio))
+        moments = {"vertical": self.second_moment_vertical, "lateral": self.second_moment_lateral}
+        areas = {"vertical": self.shear_area_vertical, "lateral": self.shear_area_lateral}
+        result = {
+            "mass": self.density * self.area,
+            "torsional_stiffness": shear_modulus * self.torsion_constant,
+            "axial_stiffness": e * self.area,
+            "polar_inertia": self.density * (moments["vertical"] + moments["lateral"]),
+        }
+        for direction, moment in moments.items():
+            result[f"bending_stiffness_{direction}"] = e * moment
+            if areas[direction] is not None:
+                result[f"shear_stiffness_{direction}"] = shear_modulus * areas[direction]
+            if rotary_inertia:
+                result[f"rotary_inertia_{direction}"] = self.density * moment
+        return result
+
+
+@dataclass(frozen=True)
+class BeamProperties:
+    """A uniform deck on bearings, as data; see `Beam`.
+
+    Attributes
+    ----------
+    name : str
+        For people.
+    spans : tuple of float
+        Spans, m; bearing lines stand at their ends.
+    mass : float
+        kg/m.
+    bending_stiffness_vertical : float
+        E I_y, N m2: bending in the vertical plane.
+    bending_stiffness_lateral : float, optional
+        E I_z, N m2. Left out: rigid sideways, those results are null.
+    torsional_stiffness : float, optional
+        G J, N m2; needs polar_inertia. Left out: rigid in twist, those results are null.
+    axial_stiffness : float, optional
+        E A, N. Left out: rigid lengthwise.
+    polar_inertia : float, optional
+        Mass moment of inertia about the centroid, kg m2 per m.
+    bearings : tuple of Bearing
+        Default: y, z and roll held at both ends of every span, x at its first (of a continuous
+        deck: at the very first). Kept with one bearing under each span where simple spans meet.
+    elements : int, optional
+        Number of finite elements, at least 2 between neighbouring bearings; default about 40, at
+        least 12 a span.
+    continuous : bool
+        Whether several spans run through over the inner bearing lines; if not, they are simple
+        spans in a row, each held by itself.
+    shear_stiffness_vertical : float, optional
+        kGA in the vertical plane, N. Left out: rigid in shear.
+    shear_stiffness_lateral : float, optional
+        kGA sideways, N. Left out: rigid in shear.
+    rotary_inertia_vertical : float, optional
+        m r^2 of the section turning in vertical bending, kg m. Left out: none.
+    rotary_inertia_lateral : float, optional
+        m r^2 of the section turning in lateral bending, kg m. Left out: none.
+    centroid_height : float
+        Centroid above the deck axis, which runs through the shear centres, m. Axial force and mass
+        are there: the mass couples lateral bending and torsion.
+
+    Raises
+    ------
+    InputError
+        Spans, mass or stiffness not positive, a bearing off the deck, twice in one place or too
+        close to another, one whose place makes the deck move in a way it has no stiffness for, or a
+        beam that can move as a rigid body.
+    """
+
+    name: str
+    spans: tuple[float, ...]
+    mass: Annotated[float, Range(above=0.0, unit="kg/m")]
+    bending_stiffness_vertical: _Bending
+    bending_stiffness_lateral: _Bending | None = None
+    torsional_stiffness: _Bending | None = None
+    axial_stiffness: _Force | None = None
+    polar_inertia: _PerMetre | None = None
+    bearings: tuple[Bearing, ...] = ()
+    elements: Annotated[int, Range(least=2, most=400, whole=True)] | None = None
+    continuous: bool = True
+    shear_stiffness_vertical: _Force | None = None
+    shear_stiffness_lateral: _Force | None = None
+    rotary_inertia_vertical: _PerMetre | None = None
+    rotary_inertia_lateral: _PerMetre | None = None
+    centroid_height: Annotated[float, Range(least=-FARTHEST, most=FARTHEST, unit="m")] = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "spans", checked_spans(self.spans))
+        check_fields(self)
+        if (self.torsional_stiffness is None) != (self.polar_inertia is None):
+            missing = "polar_inertia" if self.polar_inertia is None else "torsional_stiffness"
+            remedy = "Twist needs torsional_stiffness and polar_inertia"
+            raise InputError(missing, None, "is missing", remedy)
+        for key in ("shear_stiffness_lateral", "rotary_inertia_lateral"):
+            if getattr(self, key) is not None and self.bending_stiffness_lateral is None:
+                remedy = f"{key} goes with it"
+                raise InputError("bending_stiffness_lateral", None, "is missing", remedy)
+        bearings: list[Bearing] = []
+        for i, bearing in enumerate(self.bearings or self._usual_bearings(), start=1):
+            with within(f"bearings[{i}]"):
+                placed = replace(bearing, x=on_deck(bearing.x, self._span_ends))
+                self._refuse_missing_stiffness(placed)
+                bearings += self._under_spans(placed)
+        object.__setattr__(self, "bearings", tuple(bearings))
+        self._refuse_close_lines()
+        self._refuse_mechanism()
+
+    @property
+    def length(self) -> float:
+        """Total length, m."""
+        return float(sum(self.spans))
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """The ways this beam can move: axial, lateral, vertical, torsion."""
+        stiffness = (
+            self.axial_stiffness,
+            self.bending_stiffness_lateral,
+            self.bending_stiffness_vertical,
+            self.torsional_stiffness,
+        )
+        return tuple(f for f, s in zip(FIELDS, stiffness, strict=True) if s is not None)
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """Places where simple spans meet, m; none in a continuous deck."""
+        return () if self.continuous else tuple(np.cumsum(self.spans)[:-1].tolist())
+
+    def piece(self, bearing: Bearing) -> int:
+        """Return which simple span (from 0) a bearing carries; 0 in a continuous deck."""
+        return 0 if bearing.span is None else bearing.span - 1
+
+    def stiffness_of(self, name: str) -> float:
+        """Return the stiffness of a field: EA, E I_z, E I_y or G J."""
+        return {
+            "axial": self.axial_stiffness,
+            "lateral": self.bending_stiffness_lateral,
+            "vertical": self.bending_stiffness_vertical,
+            "torsion": self.torsional_stiffness,
+        }[name]
+
+    def shear_flexibility(self, name: str) -> float:
+        """Return E I / kGA of a bending field, m2; 0 where it is rigid in shear, and of the other
+        fields."""
+        shear = {
+            "lateral": self.shear_stiffness_lateral,
+            "vertical": self.shear_stiffness_vertical,
+        }.get(name)
+        return 0.0 if shear is None else self.stiffness_of(name) / shear
+
+    def rotary_inertia(self, name: str) -> float:
+        """Return m r^2 of a bending field, kg m; 0 where it is left out, and of the other fields."""
+        return {
+            "lateral": self.rotary_inertia_lateral,
+            "vertical": self.rotary_inertia_vertical,
+        }.get(name) or 0.0
+
+    @cached_property
+    def _span_ends(self) -> np.ndarray:
+        return np.concatenate([[0.0], np.cumsum(self.spans)])
+
+    def _usual_bearings(self) -> tuple[Bearing, ...]:
+        usual, ends = ("y", "z", "roll"), self._span_ends.tolist()
+        if self.continuous:
+            return tuple(Bearing(x, (*usual, "x") if i == 0 else usual) for i, x in enumerate(ends))
+        pairs = zip(ends[:-1], ends[1:], strict=True)
+        return tuple(
+            b
+            for i, (a, e) in enumerate(pairs, 1)
+            for b in (Bearing(a, (*usual, "x"), span=i), Bearing(e, usual, span=i))
+        )
+
+    def _under_spans(self, bearing: Bearing) -> list[Bearing]:
+        """Put one bearing under each span where two meet."""
+        if self.continuous:
+            if bearing.span is not None:
+                allowed = "can only be told of simple spans"
+                raise InputError("span", bearing.span, allowed, "Or set continuous = false")
+            return [bearing]
+        reached = [
+            i
+            for i in range(1, len(self.spans) + 1)
+            if self._span_ends[i - 1] <= bearing.x <= self._span_ends[i]
+        ]
+        if bearing.span is not None and bearing.span not in reached:
+            remedy = "Leave span out for one bearing under each span that meets there"
+            raise InputError(
+                "span", bearing.span, f"must be {' or '.join(map(str, reached))}, at this x", remedy
+            )
+        return [
+            replace(bearing, span=span) for span in ([bearing.span] if bearing.span else reached)
+        ]
+
+    @cached_property
+    def _lines(self) -> np.ndarray:
+        """Ends of spans and bearings, m, ascending: places that must be nodes."""
+        return np.unique(np.concatenate([self._span_ends, [b.x for b in self.bearings]]))
+
+    def _refuse_missing_stiffness(self, bearing: Bearing) -> None:
+        """Refuse a bearing that would hold the deck's turning only because the shift that goes with
+        it is left out."""
+        keys = {"x": ("axial", "axial_stiffness"), "y": ("lateral", "bending_stiffness_lateral")}
+        turns = {"axial": (), "lateral": ("yaw",), "vertical": ("pitch",), "torsion": ("roll",)}
+        turning = [t for name in self.fields for t in turns[name]]
+        places = {"roll": 3, "yaw": 4, "pitch": 5}
+        for freedom, (name, key) in keys.items():
+            row = bearing.row(freedom, self.centroid_height)
+            coupled = [t for t in turning if row[places[t]] != 0.0]
+            if freedom in bearing.held and name not in self.fields and coupled:
+                beside = f"is held beside the axis, which would also hold {' and '.join(coupled)} unless the deck gives that way"
+                raise InputError(
+                    freedom, None, beside, f"Give {key}, or put the bearing into the axis"
+                )
+
+    def _refuse_close_lines(self) -> None:
+        """Refuse spans and distances of bearings so short that round-off would spoil the modes of
+        the whole deck."""
+        seen = set()
+        for i, b in enumerate(self.bearings, start=1):
+            place = (b.x, round(b.y, 6), round(b.z, 6), self.piece(b))
+            if place in seen:
+                allowed = "is given to two bearings in one place"
+                raise InputError(f"bearings[{i}].x", b.x, allowed, "List all they hold in one")
+            seen.add(place)
+        gaps = np.diff(self._lines)
+        if gaps.min() < _SHORTEST * self.length:
+            allowed = f"a span or distance of bearings of {gaps.min():.3g} m behind "
+            allowed += f"x = {self._lines[np.argmin(gaps)]:g} m is too short, "
+            allowed += f"must be at least {_SHORTEST:g} of the whole length"
+            raise InputError("spans", list(self.spans), allowed, "Merge the two lines")
+
+    def _refuse_mechanism(self) -> None:
+        """Check that the bearings hold every rigid-body motion the beam, and each simple span, is
+        free to make."""
+        moving = {
+            "x": "axial",
+            "y": "lateral",
+            "z": "vertical",
+            "roll": "torsion",
+            "pitch": "vertical",
+            "yaw": "lateral",
+        }
+        orders = {"x": 1, "y": 3, "z": 3, "roll": 1, "pitch": 1, "yaw": 1}
+        reference = {
+            f: self.stiffness_of(name) / self.length ** orders[f]
+            for f, name in moving.items()
+            if name in self.fields
+        }
+        for piece in range(len(self.joints) + 1):
+            own = [b for b in self.bearings if self.piece(b) == piece]
+            free = free_motions(own, self.fields, self.length, self.centroid_height, reference)
+            if free:
+                what = "the deck" if self.continuous else f"span {piece + 1}"
+                held = [(b.x, " ".join(b.held)) for b in own]
+                allowed = f"do not keep {what} from {' or '.join(free)}, so it is a mechanism"
+                raise InputError(
+                    "bearings", held, allowed, "Hold one more freedom, or one more bearing line"
+                )
