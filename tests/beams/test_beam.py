@@ -219,7 +219,7 @@ def test_a_bearing_beside_a_place_of_the_regular_mesh():
 
 def test_bearings_and_spans_too_close_are_refused():
     ends = rb.Bearing(0.0, ("z",)), rb.Bearing(L, ("z",))
-    with pytest.raises(rb.InputError, match=r"bearing: x = 36.0: is given to two"):
+    with pytest.raises(rb.InputError, match=r"bearings\[3\]\.x = 36.0: is given to two"):
         rb.Beam("b", (L,), M, EI, bearings=(*ends, rb.Bearing(L, ("z", "pitch"))))
     with pytest.raises(rb.InputError, match=r"behind x = 20 m is too short"):
         rb.Beam("b", (L,), M, EI, bearings=(*ends, rb.Bearing(20.0, ("z",)), rb.Bearing(20.001, ("z",))))
@@ -229,5 +229,5 @@ def test_bearings_and_spans_too_close_are_refused():
 
 @pytest.mark.parametrize("damping", [-0.1, float("nan"), (1.0, -1e-3), (1.0,)])
 def test_damping_of_a_deck_is_checked(damping):
-    with pytest.raises(rb.InputError, match=r"deck.damping"):
+    with pytest.raises(rb.InputError, match=r"^damping"):
         SIMPLE.deck(3, damping)

@@ -5,7 +5,8 @@ import pytest
 
 from railbridge.boxes.motions import KINDS, described, section_motions
 from railbridge.boxes.pads import Pad
-from railbridge.boxes.shell import Shell, Strip
+from railbridge.boxes.plates import Strip
+from railbridge.boxes.shell import Shell
 
 CORNERS = np.array([(1.0, 0.8), (-1.0, 0.8), (-1.0, -0.8), (1.0, -0.8)])
 PARTS = ("top", "right", "bottom", "left")

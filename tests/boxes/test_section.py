@@ -61,8 +61,8 @@ def test_frame_names_units():
         ([(0, 0), (0, 0), (1, 0), (1, 1)], (), "twice"),
         ([(0, 0), (1, float("nan")), (1, 1)], (), "three corners"),
         ("square", (), "three corners"),
-        (rectangle(1, 1), (rectangle(1, 0.5),), "hole 1.*inside"),
-        (rectangle(1, 1), (rectangle(0.5, 0.5, 2.0),), "hole 1.*inside"),
+        (rectangle(1, 1), (rectangle(1, 0.5),), "holes\\[1\\].*inside"),
+        (rectangle(1, 1), (rectangle(0.5, 0.5, 2.0),), "holes\\[1\\].*inside"),
     ],
 )
 def test_wrong_outlines_are_refused(outline, holes, says):

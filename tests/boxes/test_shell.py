@@ -5,7 +5,9 @@ import time
 import numpy as np
 import pytest
 
-from railbridge.boxes.shell import Pad, Plate, Shell, Strip
+from railbridge.boxes.pads import Pad
+from railbridge.boxes.plates import Plate, Strip
+from railbridge.boxes.shell import Shell
 from railbridge.errors import InputError
 
 E, NU, RHO = 30e9, 0.2, 2500.0

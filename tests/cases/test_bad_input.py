@@ -34,7 +34,7 @@ def refused(make, *words):
     message = str(error.value)
     for word in words:
         assert re.search(word, message), f"{word!r} not in {message!r}"
-    assert error.value.field and error.value.allowed
+    assert (error.value.field or error.value.source) and error.value.allowed
     return error.value
 
 
@@ -80,7 +80,7 @@ def test_speed(value):
         ("track.vertical", {"kind": "table", "x": [0, 0], "r": [0, 1]}, ["track.vertical.x", "ascend", "Sort"]),
         ("track.vertical", {"kind": "table", "x": [0], "r": [0]}, ["track.vertical.x", "two points"]),
         ("track.vertical", {"left": WAVE, "rigth": WAVE}, ["track.vertical.rigth", "Did you mean 'right'"]),
-        ("track.vertical", [WAVE, {"kind": "none", "amplitude": 1}], [r"track.vertical\[1\].amplitude", "unknown"]),
+        ("track.vertical", [WAVE, {"kind": "none", "amplitude": 1}], [r"track.vertical\[2\].amplitude", "unknown"]),
         ("track.vertical", 5e-3, ["track.vertical = 0.005", "table"]),
         ("train.cars", 0, ["train.cars = 0", "at least 1"]),
         ("train.cars", -3, ["train.cars = -3"]),
@@ -99,8 +99,8 @@ def test_speed(value):
         ("train.track", 4.5, ["train.track = 4.5", "off the deck", "half width 4.8"]),
         ("train.track", -7.0, ["train.track = -7", "at least -4.8"]),
         ("train.track", "middle", ["train.track = 'middle'", "left, right"]),
-        ("train.notch", [{**NOTCH, "wheels": [[1, 9]]}], ["train.notch.wheels", r"\(1, 9\)", "cars 1 to 8"]),
-        ("train.notch", [{**NOTCH, "wheels": [[1.5, 1]]}], ["notch.*wheels = 1.5", "whole"]),
+        ("train.notch", [{**NOTCH, "wheels": [[1, 9]]}], [r"train.notch\[1\].wheels", r"\(1, 9\)", "cars 1 to 8"]),
+        ("train.notch", [{**NOTCH, "wheels": [[1.5, 1]]}], [r"notch\[1\].wheels\[1\] = 1.5", "whole"]),
         ("train.notch", [{**NOTCH, "wheels": []}], ["notch.*wheels", "pairs"]),
         ("train.notch", [{**NOTCH, "length": 3.0}], ["notch.*length = 3", "at most 2.8"]),
         ("train.notch", [{**NOTCH, "depth": -1e-3}], ["notch.*depth", "at least 0"]),
@@ -108,7 +108,7 @@ def test_speed(value):
         ("train.notch", [{**NOTCH, "before_entrance": "no"}], ["before_entrance", "true or false"]),
         ("train.notch", NOTCH, ["train.notch", r"\[\[train.notch\]\]"]),
         ("train.notch", [NOTCH], ["run.time_step = 0.001", "fewer than 10 samples in 0.05 m", "0.00025 s"]),
-        ("output.points", [40.0], [r"output.points\[0\] = 40", "at most 36 m"]),
+        ("output.points", [40.0], [r"output.points\[1\] = 40", "at most 36 m"]),
         ("output.points", [], ["output.points", "must hold"]),
     ],
 )
@@ -135,8 +135,8 @@ def test_what_a_case_may_not_hold(path, value, words):
         ({"tracks": {"left": 3.0}, "width": 4.0}, ["tracks.left = 3", "at most 2"]),
         ({"elements": 10**6}, ["elements", "at most"]),
         ({"spans": [1.0] * 1000, "length": None}, ["spans", "1 to 30"]),
-        ({"bearing": [{"x": 0.0, "fixed": "z"}]}, ["bearings", "pitching", "mechanism", "Hold one more"]),
-        ({"bearing": [{"x": 40.0, "fixed": "z"}]}, ["bearing 1.*x = 40", "at most 36"]),
+        ({"bearing": [{"x": 0.0, "fixed": "z"}]}, ["bearing = ", "pitching", "mechanism", "Hold one more"]),
+        ({"bearing": [{"x": 40.0, "fixed": "z"}]}, [r"bearing\[1\].x = 40", "at most 36"]),
         ({"bearing": [{"x": 0.0, "fixed": "zz"}]}, ["fixed = 'zz'", "Did you mean 'z'|Known"]),
         ({"bearing": 5}, [r"\[\[bearing\]\]"]),
         ({"masss": 5.0}, ["masss", "Did you mean 'mass'"]),
@@ -183,7 +183,7 @@ def test_a_car_s_table(tmp_path, old, new, words):
         ("mass = 5750.0", "mass = nan", ["mass = nan", "finite"]),
         ("mass = 5750.0", "weight = 5750.0", ["weight", "unknown key"]),
         ("mass = 5750.0", "", ["mass", "missing"]),
-        ("stiffness = [0.0, 1595e3]", "stiffness = [0.0, 0.0]", ["spring 1", "both zero"]),
+        ("stiffness = [0.0, 1595e3]", "stiffness = [0.0, 0.0]", [r"spring\[1\].stiffness", "both zero"]),
         ("stiffness = [0.0, 1595e3]\ndamping = [0.0, 0.0]", "stiffness = [0, 0]\ndamping = [0, 5.0]", ["held by no spring"]),
         ("stiffness = [0.0, 1595e3]", "stiffness = [0.0, -1595e3]", ["stiffness", "-1595000", "at least 0"]),
         ("damping = [0.0, 0.0]", "damping = [0.0, -1.0]", ["damping", "-1", "at least 0"]),
@@ -231,7 +231,7 @@ def test_condensed_loads_for_the_direct_solution(loads):
         ({"axles": [0.0, 0.0], "loads": [1e5, 1e5]}, ["train.axles", "ascend"]),
         ({"axles": [3.0, 5.0], "loads": [1e5, 1e5]}, ["train.axles", "from 0", "Subtract"]),
         ({"axles": [0.0, 2.0], "loads": [1e5]}, ["train.loads", "2 numbers"]),
-        ({"axles": [0.0], "loads": [-1e5]}, [r"train.loads\[0\] = -100000", "above 0 N"]),
+        ({"axles": [0.0], "loads": [-1e5]}, [r"train.loads\[1\] = -100000", "above 0 N"]),
         ({"axles": [0.0]}, ["train.loads", "missing"]),
         ({"axles": [0.0], "loads": [1e5], "cars": 3}, ["train.cars", "unknown"]),
         ({"cars": []}, ["train"]),
@@ -255,7 +255,7 @@ def test_things_in_the_wrong_place(name, place):
 def test_non_convergence_is_an_error_with_what_to_try(monkeypatch):
     monkeypatch.setattr(crossing, "prepare", prepare)
     deck = rb.deck_from_table("light", {**OWN_DECK, "mass": 1e3})
-    with pytest.raises(rb.NotConvergedError, match=r"run.max_iterations = 3: .*run.relaxation = 0.5") as error:
+    with pytest.raises(rb.NotConvergedError, match=r"^max_iterations = 3: .*relaxation = 0.5") as error:
         rb.cross(rb.Train(rb.vehicle("xia2000_planar")), deck, speed=30.0, time_step=2e-3, max_iterations=3)
     assert error.value.run.iterations == 3
 

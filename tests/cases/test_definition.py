@@ -126,7 +126,7 @@ def test_files(tmp_path):
         ("run.speed", None, "run.speed: is missing"),
         ("train", [{"vehicle": "xia2000"}] * 2, "several trains .* not supported"),
         ("train.cars", ["xia2000"], "either vehicle"),
-        ("output.points", [40.0], r"output.points\[0\] = 40.0"),
+        ("output.points", [40.0], r"output.points\[1\] = 40.0"),
     ],
 )
 def test_unknown_keys_and_wrong_tables(path, value, message):

@@ -30,10 +30,7 @@ from .tabletypes import checked
 
 __all__ = ["IN_A_CASE", "Case", "case"]
 
-IN_A_CASE = {f.name: f"run.{f.name}" for f in fields(Options)} | {
-    "track_offset": "train.track",
-    "number of points": "output.points",
-}
+IN_A_CASE = {f.name: f"run.{f.name}" for f in fields(Options)} | {"track_offset": "train.track"}
 """What a case calls the options of `cross`."""
 
 

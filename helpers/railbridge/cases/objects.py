@@ -27,7 +27,7 @@ from .cars import CAR_PARAMETERS, two_bogie_car
 from .tabletypes import Table, checked
 
 __all__ = [
-    "box", "car_parameters", "deck", "deck_from_table", "deck_of_case", "track_of_case",
+    "box", "box_from_table", "car_parameters", "deck", "deck_from_table", "deck_of_case", "track_of_case",
     "train_of_case", "vehicle",
 ]  # fmt: skip
 
@@ -176,6 +176,12 @@ def box(source: str | Path) -> Box:
             allowed = "this deck file has no such table"
             raise InputError("box", None, allowed, "A box needs its dimensions")
         return _box(path.stem, checked(tables.DECK_FILE, content))
+
+
+def box_from_table(name: str, content: dict[str, Any]) -> Box:
+    """Build a box from the content of a deck file with the table ``[box]``."""
+    with within(source=f"deck {name}"):
+        return _box(name, checked(tables.DECK_FILE, content))
 
 
 def deck_from_table(name: str, content: dict[str, Any]) -> Deck:

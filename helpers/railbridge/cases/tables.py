@@ -6,17 +6,19 @@ table has and which of them go together.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Union
 
-from pydantic import BeforeValidator, Discriminator, Tag, model_validator
+from pydantic import BeforeValidator, Discriminator, Tag
 from typing_extensions import TypeAliasType
 
+from .. import errors
 from ..beams import Beam, Bearing, Section
 from ..beams.bearings import FIXITIES
 from ..boxes import Box, BoxMesh, Pads
 from ..boxes.pads import DIRECTIONS
 from ..decks import RATIO
-from ..errors import InputError, Range, choice, integer, keys
+from ..errors import InputError, Range, choice, keys
 from ..exchange import ModesTable
 from ..guideways import Guideway
 from ..settings import Options
@@ -45,8 +47,18 @@ __all__ = ["CASE", "DECK", "DECK_FILE", "OUTPUT", "RUN", "TABLES", "TRACK", "TRA
 
 
 def _either(*groups: tuple[str, ...]) -> dict[str, Any]:
-    """Return the JSON Schema of exactly one of several groups of keys."""
-    return {"oneOf": [{"required": list(group)} for group in groups]}
+    """Return the JSON Schema of exactly one of several groups of keys, whole."""
+    result = []
+    for group in groups:
+        others = [name for other in groups if other != group for name in other]
+        own = {"required": list(group)}
+        result.append(own | _without(*(name for name in others if name not in group)))
+    return {"oneOf": result}
+
+
+def _without(*names: str) -> dict[str, Any]:
+    """Return the JSON Schema of a table that has none of some keys."""
+    return {"not": {"anyOf": [{"required": [name]} for name in names]}}
 
 
 def _words(allowed: tuple[str, ...], least: int = 0) -> Any:
@@ -250,12 +262,11 @@ DAMPING = switched(
 class _Holds(Table):
     """A bearing that holds something."""
 
-    @model_validator(mode="after")
-    def _refuse_nothing(self):
-        if not getattr(self, "fixed", None) and not getattr(self, "stiffness", None):
+    @classmethod
+    def refuse_mixture(cls, given: Mapping[str, Any]) -> None:
+        if given.get("fixed", []) in ([], "") and not given.get("stiffness"):
             remedy = "Say what the bearing holds, here or by stiffness"
             raise InputError("fixed", None, "is missing", remedy)
-        return self
 
 
 _HOLDS = {"anyOf": [{"required": ["fixed"]}, {"required": ["stiffness"]}]}
@@ -300,11 +311,10 @@ _BEARINGS = "Bearings; default: y, z and roll at both ends of every span, x at t
 class _Spans(Table):
     """A deck of one span or several."""
 
-    @model_validator(mode="after")
-    def _refuse_both(self):
-        if self.has("length") == self.has("spans"):
-            raise InputError("length", self.length, "give either length or spans")
-        return self
+    @classmethod
+    def refuse_mixture(cls, given: Mapping[str, Any]) -> None:
+        if ("length" in given) == ("spans" in given):
+            raise InputError("length", given.get("length"), "give either length or spans")
 
     @property
     def all_spans(self) -> tuple[float, ...]:
@@ -323,23 +333,22 @@ STIFFNESSES = tuple(
 class _BeamDeck(_Spans):
     """A beam, from a section or from stiffnesses."""
 
-    @model_validator(mode="after")
-    def _refuse_mixture(self):
-        if self.has("section") == self.has("mass"):
+    @classmethod
+    def refuse_mixture(cls, given: Mapping[str, Any]) -> None:
+        super().refuse_mixture(given)
+        if ("section" in given) == ("mass" in given):
             allowed = "give either a section or stiffnesses with mass, never both"
             raise InputError("section", None, allowed)
-        if self.has("section"):
+        if "section" in given:
             for name in STIFFNESSES:
-                if self.has(name):
+                if name in given:
                     allowed = "a section is given too, never both"
-                    raise InputError(name, getattr(self, name), allowed, "Remove one")
-            return self
-        keys("", self.given, self.given, ["bending_stiffness_vertical"])
-        if self.rotary_inertia:
+                    raise InputError(name, given[name], allowed, "Remove one")
+            return
+        keys("", given, given, ["bending_stiffness_vertical"])
+        if given.get("rotary_inertia") is True:
             remedy = "Give rotary_inertia_vertical and rotary_inertia_lateral, kg m"
-            allowed = "follows from a section only"
-            raise InputError("rotary_inertia", self.rotary_inertia, allowed, remedy)
-        return self
+            raise InputError("rotary_inertia", True, "follows from a section only", remedy)
 
 
 BEAM = table(
@@ -350,6 +359,7 @@ BEAM = table(
         "allOf": [
             _either(("length",), ("spans",)),
             _either(("section",), ("mass", "bending_stiffness_vertical")),
+            {"if": {"required": ["section"]}, "then": _without(*STIFFNESSES)},
         ]
     },
     **_SPANS,
@@ -379,17 +389,17 @@ MESH = table("Mesh", "Elements of the shell.", **fields_of(BoxMesh))
 class _BoxDeck(_Spans):
     """A box as a beam or as a shell."""
 
-    @model_validator(mode="after")
-    def _refuse_mixture(self):
-        shell = self.model == "shell"
+    @classmethod
+    def refuse_mixture(cls, given: Mapping[str, Any]) -> None:
+        super().refuse_mixture(given)
+        shell = given.get("model") == "shell"
         for name in ("shear", "rotary_inertia") if shell else ():
-            if self.has(name):
+            if name in given:
                 allowed = "is a switch of the beam model"
-                raise InputError(name, getattr(self, name), allowed, "Remove it, a shell has both")
-        if self.has("mesh") and not shell:
+                raise InputError(name, given[name], allowed, "Remove it, a shell has both")
+        if "mesh" in given and not shell:
             remedy = 'Remove it, or set model = "shell"'
-            raise InputError("mesh", None, "belongs to the shell model", remedy)
-        return self
+            raise InputError("mesh", given["mesh"], "belongs to the shell model", remedy)
 
 
 BOX_DECK = table(
@@ -413,10 +423,19 @@ BOX_DECK = table(
     tracks=_CARRYING["tracks"],
     **_for_people(),
 )
+_AXES = ["x", "-x", "y", "-y", "z", "-z"]
 MODES = table(
     "Modes",
     "Modes of another finite-element program; see docs/exchange.md.",
-    **fields_of(ModesTable),
+    **fields_of(
+        ModesTable,
+        units=anything(
+            {"type": "array", "minItems": 1, "maxItems": 2, "items": {"type": "string"}}
+        ),
+        axes=anything({"type": "array", "minItems": 3, "maxItems": 3, "items": {"enum": _AXES}}),
+        rail=anything({"type": "object"}),
+        axis=named_numbers(("y", "z"), unit="m"),
+    ),
 )
 MODAL_DECK = table(
     "ModalDeck",
@@ -461,18 +480,19 @@ RUN = table("Run", "How the crossing is computed.", **fields_of(Options, omit=("
 
 
 def _points(value: Any) -> Any:
-    if isinstance(value, (list, tuple)):
-        integer("number of points", len(value), least=1, most=100)
-    return value
+    if isinstance(value, (list, tuple)) and not 1 <= len(value) <= 100:
+        remedy = "Leave it out for mid-length"
+        raise InputError("", value, "must hold 1 to 100 places", remedy)
+    return tuple(errors.numbers("", value, least=0.0, unit="m").tolist())
 
 
+_PLACES = {
+    "type": "array", "minItems": 1, "maxItems": 100, "items": {"type": "number", "minimum": 0},
+}  # fmt: skip
 OUTPUT = table(
     "Output",
     "What is told of the crossing.",
-    points=key(
-        Annotated[numbers(least=0.0, unit="m"), BeforeValidator(_points)],
-        "m along the deck; default mid-length.",
-    ),
+    points=key(anything(_PLACES, _points), "m along the deck; default mid-length."),
 )
 CASE = table(
     "Case",

@@ -66,7 +66,12 @@ class Table(BaseModel):
             if f.is_required() and (f.alias or name) not in value:
                 missing = f.alias or name
                 raise InputError(missing, None, "is missing", f"Add {missing}")
+        cls.refuse_mixture(value)
         return value
+
+    @classmethod
+    def refuse_mixture(cls, given: Mapping[str, Any]) -> None:
+        """Refuse keys that do not go together; by default all do."""
 
     @property
     def given(self) -> dict[str, Any]:
@@ -204,6 +209,8 @@ def by_value(value: Any, name: str, values: tuple[str, ...], otherwise: str) -> 
 
 
 def _annotated(kind: FieldType) -> Any:
+    if kind.kind == "other":
+        raise TypeError("a field whose type does not say what a file may hold needs one here")
     return anything(_schema(kind), lambda value: kind.checked("", value))
 
 
@@ -265,7 +272,7 @@ def fields_of(
         needed = f.default is MISSING and f.default_factory is MISSING
         needed = (needed and f.name not in optional) or f.name in required
         default = None if f.default is MISSING else f.default
-        made = other.get(f.name, None) or _annotated(types[f.name])
+        made = other[f.name] if f.name in other else _annotated(types[f.name])
         alias = f.name.rstrip("_") if f.name.endswith("_") else None
         result[f.name] = key(made, said[f.name], default, required=needed, alias=alias)
     return result
