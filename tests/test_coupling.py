@@ -89,10 +89,10 @@ def test_convective_term_counts_more_the_faster_the_train():
         train, deck = rb.Train(rb.sprung_mass("m", 1e5, 1e3, 1e4)), rb.Beam("b", (L,), MASS, EI).deck(1, 0.0)
         s = check(train, deck, rb.Track(), speed=speed, time_step=1e-3)
         coupling = prepare(train, deck, rb.Track(), s)
-        state = coupling.deck_state(coupling.station_loads(coupling.at_rest()))
+        state = coupling.deck_state(coupling.station_loads(coupling.nothing_added()))
         frozen = type(state)(np.full_like(state.q, -1.0), np.zeros_like(state.velocity), state.modal_force)
-        u = coupling.support_input(frozen, [0])[1, 0]
-        x = speed * s.time_step * (np.arange(u.size) + coupling.windows[0].start)
+        u = coupling.support_input(frozen, coupling.cars)[0, 1, 0]
+        x = speed * s.time_step * (np.arange(u.size) + coupling.cars[0].window.start)
         on = (x > 0.1) & (x < L - 0.1)
         norm = np.sqrt(2 / MASS / L)
         expected = -norm * (1e3 * np.sin(np.pi * x / L) + 1e4 * speed * np.pi / L * np.cos(np.pi * x / L))
@@ -103,7 +103,7 @@ def test_convective_term_counts_more_the_faster_the_train():
 
 def test_changes_are_what_they_are_said_to_be():
     run = suite(27.78, 1e-3, iterations=4)
-    window = run.coupling.windows[0]
+    window = run.coupling.cars[0].window
     for i in range(1, 5):
         new, old = (run.at(j).wheel_forces[0, 1, window] + CAR_MASS * 9.81 for j in (i, i - 1))
         assert run.changes[i - 1] == pytest.approx(np.sqrt(np.mean((new - old) ** 2) / np.mean(new**2)), rel=1e-6)
@@ -123,11 +123,11 @@ def test_every_wheel_feels_the_deck_at_its_own_place():
     train, deck, offset, speed = rb.Train(rb.vehicle("xia2000"), cars=2), rb.deck("viaduct36"), 2.4, 25.0
     s = check(train, deck, rb.Track(), speed=speed, time_step=2e-3, track_offset=offset)
     coupling = prepare(train, deck, rb.Track(), s)
-    state = coupling.deck_state(coupling.station_loads(coupling.at_rest()))
+    state = coupling.deck_state(coupling.station_loads(coupling.nothing_added()))
     q, velocity = (rng.normal(size=state.q.shape) for _ in range(2))
-    u = coupling.support_input(type(state)(q, velocity, state.modal_force), [0, 1])
+    u = coupling.support_input(type(state)(q, velocity, state.modal_force), coupling.cars)
     for car in (0, 1):
-        window = coupling.windows[car]
+        window = coupling.cars[car].window
         for wheel in (w for w in train.wheels if w.car == car + 1):
             place = speed * coupling.time[window] - wheel.delay
             on = np.min(np.abs(place[:, None] - deck.shapes.edges), axis=1) > 1e-6  # the slope of twist has corners there
@@ -137,13 +137,13 @@ def test_every_wheel_feels_the_deck_at_its_own_place():
             moved = np.einsum("tmc,mt->ct", met, here)
             rate = np.einsum("tmc,mt->ct", met, now) + speed * np.einsum("tmc,mt->ct", slope, here)
             y = offset + wheel.y
-            i = 2 * (wheel.number - 1)
-            ours = u[i : i + 2, car, : len(place)][:, on]
+            own = u[wheel.number - 1, :, car, : len(place)]
+            ours = own[:, on]
             lateral = 20e6 * moved[0] + 15e3 * rate[0]
             vertical = 2976e3 * (moved[1] + y * moved[2]) + 15e3 * (rate[1] + y * rate[2])
             assert ours[0] == pytest.approx(lateral, abs=1e-9 * np.abs(lateral).max())
             assert ours[1] == pytest.approx(vertical, abs=1e-9 * np.abs(vertical).max())
-            assert not u[i : i + 2, car, : len(place)][:, (place < -1e-6) | (place > deck.length + 1e-6)].any()
+            assert not own[:, (place < -1e-6) | (place > deck.length + 1e-6)].any()
 
 
 def test_an_iteration_that_overflows_has_not_converged():

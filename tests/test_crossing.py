@@ -224,7 +224,7 @@ def test_wheel_forces_after_the_deck_are_continuous_and_decay():
     run = rb.cross(rb.Train(CAR, cars=2), DECK, speed=20.0, track_offset=2.4, tail=12.0, time_step=1e-3)
     static = CAR.contacts[0].static_load
     moving = run.wheel_forces[:8, 1] + static  # level track: only the deck moves the car
-    stop = run.coupling.windows[0].stop
+    stop = run.coupling.cars[0].window.stop
     inside = np.abs(np.diff(moving[:, stop - 200 : stop - 2])).max()
     assert np.abs(np.diff(moving[:, stop - 2 : stop + 2])).max() < 2 * inside
     assert np.abs(moving[:, stop + 1 : stop + 500]).max() > 1e-3 * static * 0.1
@@ -268,8 +268,8 @@ def test_a_short_run_up_is_warned_about_with_the_figure(lead_in):
     with pytest.warns(UserWarning, match="lead_in.*transient") as caught:
         run = rb.cross(rb.Train(CAR), DECK, WAVES, lead_in=lead_in, **options)
     printed = float(str(caught[0].message).split(": ")[1].split("%")[0]) / 100
-    window = run.coupling.windows[0]
-    a, b = (r.coupling.rigid[0][:, window] for r in (run, settled))
+    window = run.coupling.cars[0].window
+    a, b = (r.coupling.cars[0].rigid[..., window] for r in (run, settled))
     assert printed == pytest.approx(np.linalg.norm(a - b) / np.linalg.norm(b), abs=1.5e-3)
 
 

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 import railbridge as rb
 from railbridge.settings import check, default_time_step
+from railbridge.trains import Passage
 
 CAR = rb.vehicle("xia2000")
 DECK = rb.deck("viaduct36")
@@ -36,8 +37,8 @@ def test_a_notch_is_resolved(cars):
     assert 20.0 * step <= 0.05 / 20 * (1 + 1e-12)
     # Against a step four times finer the force on the notched wheel has settled.
     train, track = rb.Train(CAR, notches=(notch,)), rb.Track()
-    coarse = train.rigid_forces(track, 20.0, step, int(0.02 / step), 0.0)[0][1]
-    fine = train.rigid_forces(track, 20.0, step / 4, int(0.02 / step * 4), 0.0)[0][1][::4]
+    coarse = train.rigid_forces(track, Passage(20.0, step, int(0.02 / step)))[0][0, 1]
+    fine = train.rigid_forces(track, Passage(20.0, step / 4, int(0.02 / step * 4)))[0][0, 1][::4]
     n = min(len(coarse), len(fine))
     assert coarse[:n] == pytest.approx(fine[:n], abs=0.03 * np.abs(fine).max())
 
@@ -52,7 +53,7 @@ def test_a_given_step_may_just_do():
 def test_a_lead_in_too_short_for_its_fade_in_is_refused():
     track = rb.Track(rb.Table([-100.0, 0.0, 100.0], [2e-3, 2e-3, 2e-3]))
     train, deck = rb.Train(rb.vehicle("xia2000")), rb.deck("viaduct36")
-    with pytest.raises(rb.InputError, match=r"run.lead_in = 0.03: .* at least 0.4 m"):
+    with pytest.raises(rb.InputError, match=r"^lead_in = 0.03: .* at least 0.4 m"):
         check(train, deck, track, speed=20.0, time_step=1e-3, lead_in=0.03)
     # Not given, it is long enough even where 7.5 s are but a few samples.
     assert check(train, deck, track, speed=1e-6, time_step=1e4).lead_in == pytest.approx(0.2)

@@ -119,30 +119,30 @@ def test_before_its_run_up_a_car_far_back_stands_on_level_track():
     train = rb.Train(CAR, cars=4, car_spacing=22.5)
     forces = train.rigid_forces(waves(14.4), Passage(V, 1e-3, 6000, 10.0))
     assert not forces[3][..., : int(1000 * (67.5 - 10.0) / V)].any()
-    assert forces[3][:, int(1000 * 67.5 / V)].any()
+    assert forces[3][..., int(1000 * 67.5 / V)].any()
 
 
 def test_a_notch_is_felt_by_its_wheel_first_and_no_other_car():
     notch = rb.Notch(((2, 3),), circumference=2.8, offset=5.0, depth=1e-3, length=0.2)
     train = rb.Train(CAR, cars=2, car_spacing=22.5, notches=(notch,))
     h, n = 2e-4, 12_000
-    forces = train.rigid_forces(rb.Track(), V, h, n, 0.0)
+    forces = train.rigid_forces(rb.Track(), Passage(V, h, n))
     assert not forces[0].any()
     meets = (5.0 + 22.5 + 2.5) / V  # wheel 3 is 2.5 m behind its car's first axle
     t = h * np.arange(n)
-    assert not forces[1][:, t < meets - h].any()
+    assert not forces[1][..., t < meets - h].any()
     shortly = (t >= meets) & (t < meets + 0.2 / V)
-    vertical = np.abs(forces[1][1::2, shortly]).max(axis=1)
+    vertical = np.abs(forces[1][:, 1, shortly]).max(axis=1)
     assert np.argmax(vertical) == 2
     assert vertical[2] > 5 * np.delete(vertical, 2).max()
     # The wheel drops into the notch: first the force on the rail is relieved.
-    first = forces[1][5, shortly]
+    first = forces[1][2, 1, shortly]
     assert first[np.argmax(np.abs(first) > 100.0)] > 0
 
 
 def test_notch_as_in_the_paper_is_nearly_all_damper():
     notch = rb.Notch(((1, 1),), circumference=2.8, offset=1.0, depth=1e-3, length=0.05)
-    forces = rb.Train(CAR, notches=(notch,)).rigid_forces(rb.Track(), V, 2.5e-5, 4000, 0.0)[0][1]
+    forces = rb.Train(CAR, notches=(notch,)).rigid_forces(rb.Track(), Passage(V, 2.5e-5, 4000))[0][0, 1]
     damper = 15e3 * V * np.pi * 1e-3 / 0.05
     assert np.abs(forces).max() == pytest.approx(damper, rel=0.15)
     assert 17e3 < np.abs(forces).max() < 23e3
@@ -151,22 +151,22 @@ def test_notch_as_in_the_paper_is_nearly_all_damper():
 @pytest.mark.parametrize(("loads", "stations", "components"), [("wheels", 4, 3), ("bogies", 2, 5), ("condensed", 1, 5)])
 def test_condensation_does_the_same_work(loads, stations, components):
     """Virtual work on any motion the stations can follow: linear along x within a station, any twist."""
-    condensation = rb.Train(CAR).condensation(0, loads)
-    assert condensation.matrix.shape == (stations, components, 16)
+    condensation = rb.Train(CAR).car(1).condensation(loads)
+    assert condensation.matrix.shape == (stations, components, 8, 2)
     rng = np.random.default_rng(3)
-    forces = rng.normal(size=16)
+    forces = rng.normal(size=(8, 2))
     total = 0.0
     for s, offset in enumerate(condensation.offsets):
         v, w, theta, slope_w, slope_v = rng.normal(size=5)
         if components == 3:
             slope_w = slope_v = 0.0
         motion = np.array([v, w, theta, -slope_w, slope_v])[:components]
-        load = condensation.matrix[s] @ forces
+        load = np.tensordot(condensation.matrix[s], forces, 2)
         for i, c in enumerate(CAR.contacts):
             here = {"wheels": c.x == offset, "bogies": c.x * offset > 0, "condensed": True}[loads]
             if here:
                 dx = c.x - offset
-                total += forces[2 * i] * (v + slope_v * dx) + forces[2 * i + 1] * (w + slope_w * dx + c.y * theta)
+                total += forces[i] @ (v + slope_v * dx, w + slope_w * dx + c.y * theta)
         total -= load @ motion
     assert total == pytest.approx(0.0, abs=1e-12)
     places = {"wheels": [9.05, 6.55, -6.55, -9.05], "bogies": [7.8, -7.8], "condensed": [0.0]}[loads]
@@ -175,9 +175,7 @@ def test_condensation_does_the_same_work(loads, stations, components):
 
 def test_signs_of_the_condensed_components():
     def of(wheel, direction):
-        forces = np.zeros(16)
-        forces[2 * wheel + direction] = 1.0
-        return rb.Train(CAR).condensation(0, "condensed").matrix[0] @ forces
+        return rb.Train(CAR).car(1).condensation("condensed").matrix[0, :, wheel, direction]
 
     assert of(0, 0) == pytest.approx([1, 0, 0, 0, 9.05])  # front left, pushed left: yaw to the left
     assert of(0, 1) == pytest.approx([0, 1, 0.98, -9.05, 0])  # lifted: rolls to the right, nose up is negative pitch
@@ -187,10 +185,11 @@ def test_signs_of_the_condensed_components():
 def test_axle_train():
     train = rb.AxleTrain([0.0, 3.0, 14.0], [1e5, 2e5, 1e5])
     assert train.length == 14.0 and len(train.wheels) == 3
-    assert train.static_forces(0) == pytest.approx([0, -1e5, 0, -2e5, 0, -1e5])
-    assert not train.rigid_forces(waves(14.4), V, 1e-3, 50, 10.0)[0].any()
+    assert train.car(1).static_forces == pytest.approx(np.array([[0, -1e5], [0, -2e5], [0, -1e5]]))
+    assert train.kinds() == [] and train.car(1).vehicle is None
+    assert not train.rigid_forces(waves(14.4), Passage(V, 1e-3, 50, 10.0))[0].any()
     with pytest.raises(rb.InputError, match="no cars to condense"):
-        train.condensation(0, "condensed")
+        train.car(1).condensation("condensed")
 
 
 def test_steady_state_needs_one_wavelength():
@@ -203,10 +202,10 @@ def test_steady_state_needs_one_wavelength():
 @pytest.mark.parametrize(
     ("made", "named"),
     [
-        (lambda: rb.Train(5), "train.vehicle"),
-        (lambda: rb.Train([]), "train.vehicle"),
-        (lambda: rb.Train(CAR, notches=rb.Notch(((1, 1),), 2.7, 9.0, 1e-3, 0.05)), "train.notch"),
-        (lambda: rb.Train(CAR, notches=[5]), "train.notch"),
+        (lambda: rb.Train(5), "vehicle"),
+        (lambda: rb.Train([]), "vehicle"),
+        (lambda: rb.Train(CAR, notches=rb.Notch(((1, 1),), 2.7, 9.0, 1e-3, 0.05)), "notches"),
+        (lambda: rb.Train(CAR, notches=[5]), "notches"),
     ],
 )
 def test_what_is_no_vehicle_or_notch_is_refused_in_words(made, named):

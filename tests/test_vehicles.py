@@ -8,12 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import railbridge as rb
-from railbridge.cases import shelf
-from railbridge.vehicles import CAR_PARAMETERS, Body, Spring, Vehicle, planar_car, two_bogie_car
+from railbridge import planar_car, two_bogie_car
+from railbridge.vehicles import Body, Spring, Vehicle
 
 CAR = rb.vehicle("xia2000")
-UNITS = {name: bounds.unit for name, bounds in CAR_PARAMETERS.items()}
-PARAMETERS = shelf.read_parameters(shelf.data_file("vehicles", "xia2000"), UNITS)
+PARAMETERS = rb.car_parameters("xia2000")
 NATURAL = [
     0.6451, 1.2138, 1.2298, 1.3345, 1.6768, 9.0444, 9.0552, 11.7201, 11.7201, 15.4791, 15.4824, 21.9588, 21.9589, 24.9903,
     24.9903,
