@@ -65,10 +65,11 @@ def coupled(case):
     """Return a function that integrates one car on the deck as one system of equations, as a textbook would write it."""
     car, deck, s = case.train.vehicle, case.deck, case.run().settings
     m, c, k = car.mass_matrix, car.damping_matrix, car.stiffness_matrix
-    rows, kc, cc = car._contact_rows()
+    rows = car._contact_rows.reshape(-1, len(car.labels))
+    kc, cc = car.contact_stiffness.ravel(), car.contact_damping.ravel()
     inverse, n, modes = np.linalg.inv(m), len(m), len(deck.frequencies_hz)
     omega, y = 2 * np.pi * deck.frequencies_hz, np.array([w.y for w in case.train.wheels]) + s.track_offset
-    delays, static = np.array([w.delay for w in case.train.wheels]), np.array([w.static_load for w in case.train.wheels])
+    delays, static = np.array([w.delay for w in case.train.wheels]), case.train.car(1).static_forces.ravel()
     rails = [(case.track.rail("lateral", w.side), case.track.rail("vertical", w.side)) for w in case.train.wheels]
     stop = (deck.length + case.train.length) / s.speed
 
@@ -83,8 +84,7 @@ def coupled(case):
         dr = np.array([[i.slope(p) for i in pair] for pair, p in zip(rails, place, strict=True)]).ravel() * s.speed
         r, dr = r + shape @ q, dr + shape @ dq + s.speed * (tilt @ q)
         force = kc * (rows @ x - r) + cc * (rows @ v - dr)
-        load = force.copy()
-        load[1::2] -= static
+        load = force + static
         acceleration = inverse @ (rows.T @ (kc * r + cc * dr) - c @ v - k @ x)
         return np.concatenate([v, acceleration, dq, shape.T @ load - 2 * deck.damping_ratios * omega * dq - omega**2 * q])
 

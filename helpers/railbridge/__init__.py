@@ -27,7 +27,7 @@ from .errors import InputError
 from .results import Crossing
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .tracks import FadeIn, Harmonic, Level, Notch, Rails, Table, Track
-from .trains import AxleTrain, Passage, Train, steady_forces
+from .trains import CONDENSED, AxleTrain, Passage, Train, steady_forces
 from .vehicles import Body, Spring, Vehicle
 
 __version__ = "0.1.0"
@@ -54,7 +54,7 @@ _MODULES = {
 }
 
 __all__ = [
-    "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "Case", "Crossing", "Deck", "FadeIn",
+    "CONDENSED", "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "Case", "Crossing", "Deck", "FadeIn",
     "Harmonic", "History", "InputError", "Level", "NotConvergedError", "Notch", "Pads", "Passage",
     "Rails", "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box",
     "car_parameters", "case", "compared", "cross", "data_root", "deck", "deck_from_table",

@@ -11,8 +11,6 @@ import pytest
 
 import railbridge as rb
 from railbridge.cases import command as cli
-from railbridge.cases.shelf import data_file, read_parameters
-from railbridge.vehicles import CAR_PARAMETERS, two_bogie_car
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "teaching.md"
@@ -156,14 +154,14 @@ def asked(v):
 
 def answers(v):
     """What the marking table must say, computed here."""
-    table1 = read_parameters(data_file("vehicles", "xia2000"), CAR_PARAMETERS)
+    table1 = rb.car_parameters("xia2000")
     softer = table1 | {"secondary_vertical_stiffness": v.soft * table1["secondary_vertical_stiffness"]}
     series = 1 / (1 / (4 * v.soft * 1060e3) + 1 / (8 * 2976e3))
-    modes = two_bogie_car("softer", **softer).modes()
+    modes = rb.two_bogie_car("softer", **softer).modes()
     # By name: softer, bounce changes places with yaw.
     by_hand, exact = np.sqrt(series / 50990) / (2 * np.pi), modes.frequencies_hz[modes.names.index("car z")]
     car, waves = rb.vehicle("xia2000"), rb.Track(vertical=rb.Harmonic(5e-3, v.wave))
-    delayed, in_phase = (abs(rb.steady_forces(car, waves, 20.0, how)[1::2].sum()) / 1e3 for how in ("wheels", "car"))
+    delayed, in_phase = (abs(rb.steady_forces(car, waves, 20.0, how)[:, 1].sum()) / 1e3 for how in ("wheels", "car"))
     share = np.cos(2 * np.pi * 7.8 / v.wave) * np.cos(2 * np.pi * 1.25 / v.wave)
     assert np.isclose(delayed / in_phase, abs(share))
     length, first = v.span
@@ -176,7 +174,7 @@ def answers(v):
         line = beam.recovery.section(quantity, middle)
         cost.append(line.influence([middle])[0, 0, 1] / line.influence(x)[:, 0, 1].mean())
     omega = 2 * np.pi * 3.307
-    force = abs(rb.steady_forces(car, rb.Track(vertical=rb.Harmonic(1.0, 20.0 / 3.307)), 20.0, "car")[1::2].sum())
+    force = abs(rb.steady_forces(car, rb.Track(vertical=rb.Harmonic(1.0, 20.0 / 3.307)), 20.0, "car")[:, 1].sum())
     gain = [force * 2 / (mass * 36.0) / (0.06 * omega**2) for mass in (v.light * 12e3, 12e3)]
     changes = v.changes[0] * (v.changes[1] / v.changes[0]) ** np.arange(20)
     passes = next(i + 1 for i in range(1, 20) if max(changes[i - 1 : i + 1]) < 1e-8)

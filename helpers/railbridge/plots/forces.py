@@ -95,7 +95,8 @@ def car_forces(
         values = style.factor * history[name]
         curve(ax, name, run.time, values, color=style.colour, ls=style.line)
         if steady and name in steady:
-            middle = style.factor * float(run.coupling.static[car - 1][1::2].sum()) if static and name == "force_z" else 0.0
+            weight = run.train.car(car).static_forces[:, 1].sum()
+            middle = style.factor * float(weight) if static and name == "force_z" else 0.0
             level = style.factor * steady[name]
             ends = [run.time[0], run.time[-1], np.nan, run.time[0], run.time[-1]]
             lines = [middle + level] * 2 + [np.nan] + [middle - level] * 2
