@@ -275,3 +275,9 @@ def _round_limits(low: float, high: float, log: bool, along: bool) -> tuple[floa
     part = rung(1.04 * reach) / 2
     below, above = (part * np.ceil((v + 0.02 * reach) / part) if v > 0 else 0.0 for v in (-low, high))
     return -float(below), float(above)
+
+
+def round_below(value: float) -> float:
+    """Return the largest of 1, 2, 3, 5 times a power of ten that is not above the value."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(power * max(d for d in (1, 2, 3, 5) if d <= value / power * (1 + 1e-9)))

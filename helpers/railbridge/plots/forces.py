@@ -37,22 +37,19 @@ def wheel_forces(run: Crossing, car: int = 1, axes: Sequence[Axes] | None = None
     ndarray of Axes
         One for each axle, front first.
     """
-    wheels = [(i, w) for i, w in enumerate(run.train.wheels) if w.car == car]
-    if not wheels:
-        raise InputError("car", car, "no such car in this train", "Cars are counted from 1")
-    delays = sorted({round(w.delay, 6) for _, w in wheels})
-    axes = grid(axes, len(delays), 1, 0.6 + 1.5 * len(delays), sharex=True, sharey=True)
-    for number, (ax, delay) in enumerate(zip(axes, delays, strict=True), start=1):
+    axles = run.train.car(car).axles
+    axes = grid(axes, len(axles), 1, 0.6 + 1.5 * len(axles), sharex=True, sharey=True)
+    for number, (ax, axle) in enumerate(zip(axes, axles, strict=True), start=1):
         shade_car(run, car, ax, label=number == 1)
-        for i, w in wheels:
-            if round(w.delay, 6) != delay:
-                continue
-            for row, name in enumerate(("force_y", "force_z")):
+        for wheel in axle.wheels:
+            history, left = run.wheel_force(car, wheel.number), wheel.side == "left"
+            for name in ("force_y", "force_z"):
                 style = look(name)
-                label = f"{style.words}, {w.side}" if number == 1 else None
-                colour = style.colour if w.side == "left" else second(style.colour)
-                curve(ax, f"{name} {w.side}", run.time, style.factor * run.wheel_forces[i, row], label=label, color=colour,
-                      ls=style.line, lw=2.4 if w.side == "left" else 1.0)  # fmt: skip
+                label = f"{style.words}, {wheel.side}" if number == 1 else None
+                colour = style.colour if left else second(style.colour)
+                line = {"color": colour, "ls": style.line, "lw": 2.4 if left else 1.0}
+                values = style.factor * history[name]
+                curve(ax, f"{name} {wheel.side}", run.time, values, label=label, **line)
         finish(ax, TIME if ax is axes[-1] else "", "force (kN)", f"axle {number}")
     return axes
 

@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from .. import errors
 from ..results import Crossing
 from ..trains import CONDENSED
-from .drawing import ALONG, GREY, TIME, curve, finish, grid, look, note, one
+from .drawing import ALONG, GREY, TIME, curve, finish, grid, look, note, one, round_below
 from .forces import shade_car
+from .outlines import axle_places, car_outlines
 
 __all__ = ["car_components", "crossing_at"]
 
@@ -41,7 +42,7 @@ def crossing_at(run: Crossing, position: float, ax: Axes | None = None) -> Axes:
     along = np.linspace(0.0, deck.length, 49)
     shape = deck.shapes(along)[:, :, 1]
     largest = float(np.abs(deck.shapes(np.array([deck.length / 2]))[0, :, 1] @ run.state.q).max())
-    times = _round_below(_SAG / largest) if largest > 0 else 1.0
+    times = round_below(_SAG / largest) if largest > 0 else 1.0
     moved = times * (shape @ run.state.q[:, now])
 
     def level(x):
@@ -52,20 +53,20 @@ def crossing_at(run: Crossing, position: float, ax: Axes | None = None) -> Axes:
     curve(ax, "rest", [0.0, deck.length], [-0.45, -0.45], color=GREY, lw=1.0, ls=":")
     curve(ax, "deck", along, moved - 0.45, color=_DECK, lw=7.0, solid_capstyle="butt", zorder=1.8)
     curve(ax, "bearings", deck.supports, np.full(len(deck.supports), -1.75), color="#34495e", ls="", marker="^", ms=9)
-    wheels = position - np.array([axle.delay for axle in train.placed_axles])
+    wheels = axle_places(train, position)
     curve(ax, "wheels", wheels, level(wheels) + 0.35, color=_TRAIN, ls="", marker="o", ms=4.5, zorder=3)
     bogies, cars = [], []
-    for centre, car in [(c.centre, c.vehicle) for c in train.formation if c.vehicle is not None]:
-        middle, places, heights = position - centre, [], []
-        for name in dict.fromkeys(c.body for c in car.contacts):
-            x = middle + np.array([c.x for c in car.contacts if c.body == name])
-            places.append(x.mean())
-            heights.append(level(x).mean())
-            bogies.append([[x.min() - 0.6, x.max() + 0.6, np.nan], [heights[-1] + 0.8] * 3])
+    for car in car_outlines(train, position):
+        places = [x.mean() for x in car.bogies]
+        heights = [level(x).mean() for x in car.bogies]
+        for x, height in zip(car.bogies, heights, strict=True):
+            bogies.append([[x.min() - 0.6, x.max() + 0.6, np.nan], [height + 0.8] * 3])
         # The car body lies as its outermost bogies do.
         tilt = (heights[0] - heights[-1]) / (places[0] - places[-1]) if len(places) > 1 else 0.0
-        x = middle + 0.47 * car.length * np.array([-1, 1, 1, -1, -1, np.nan])
-        cars.append([x, heights[0] + tilt * (x - places[0]) + np.array([1.3, 1.3, 3.9, 3.9, 1.3, np.nan])])
+        rear, front = car.body
+        x = np.array([rear, front, front, rear, rear, np.nan])
+        up = np.array([1.3, 1.3, 3.9, 3.9, 1.3, np.nan])
+        cars.append([x, heights[0] + tilt * (x - places[0]) + up])
     for name, parts, width in (("bogies", bogies, 3.0), ("cars", cars, 1.6)):
         x, y = np.concatenate([np.array(p, dtype=float) for p in parts], axis=1) if parts else ([], [])
         curve(ax, name, x, y, color=_TRAIN, lw=width)
@@ -114,9 +115,3 @@ def mark_now(ax: Axes, now: float | None) -> None:
     if now is not None:
         options = {"color": "k", "lw": 0.9, "ls": ":", "transform": ax.get_xaxis_transform()}
         curve(ax, "now", [now, now], [0.0, 1.0], **options)
-
-
-def _round_below(value: float) -> float:
-    """Return the largest of 1, 2, 3, 5 times a power of ten that is not above the value."""
-    power = 10.0 ** np.floor(np.log10(value))
-    return float(power * max(d for d in (1, 2, 3, 5) if d <= value / power * (1 + 1e-9)))

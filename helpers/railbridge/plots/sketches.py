@@ -18,6 +18,7 @@ from ..decks import Deck
 from ..trains import AxleTrain, Train
 from ..vehicles import FREEDOMS, Modes, Spring, Vehicle
 from .drawing import GREY, LOOKS, PALE, WIDTH, curve, finish, note, one
+from .outlines import axle_places, car_outlines
 
 __all__ = ["train_on_deck", "vehicle", "vehicle_mode"]
 
@@ -129,7 +130,7 @@ def _figure_axes(axes: Sequence[Axes] | None, v: Vehicle) -> list[Axes]:
 def _draw(axes: Sequence[Axes], v: Vehicle, motion: dict[str, np.ndarray] | None, look: dict) -> None:
     """Draw bodies, springs and wheels in all three views."""
     boxes, level = body_boxes(v), body_levels(v)
-    wheels = sorted({(round(c.x, 6), round(c.y, 6)) for c in v.contacts})
+    wheels = sorted((axle.x, v.contacts[w].y) for axle in v.axles for w in axle.wheels)
     for ax, (view, plane) in zip(axes, VIEWS.items(), strict=True):
         a, b = plane
         for body in sorted(v.bodies, key=lambda body: level[body.name]):
@@ -206,7 +207,7 @@ def vehicle(vehicle: Vehicle, axes: Sequence[Axes] | None = None) -> np.ndarray:
             side.text(x, z, f"{body.name}\n{mass}", ha="center", va="center", size=9, zorder=4)
         else:
             top.text(x, 0.0, f"{body.name}\n{mass}", ha="center", va="center", size=7.5, zorder=4)
-    axles = sorted({round(c.x, 6) for c in vehicle.contacts})
+    axles = [axle.x for axle in reversed(vehicle.axles)]
     if len(axles) > 1:
         for a, b in zip(axles[:-1], axles[1:], strict=True):
             _dimension(side, a, b, -0.75, f"{b - a:.4g} m")
@@ -317,13 +318,11 @@ def train_on_deck(train: Train | AxleTrain, deck: Deck, ax: Axes | None = None, 
     ax = one(ax, 1.9)
     at = 0.0 if position is None else errors.number("position", position, unit="m")
     cars, bogies = [], []
-    for centre, car in [(c.centre, c.vehicle) for c in train.formation if c.vehicle is not None]:
-        middle, half = at - centre, 0.47 * car.length
-        cars.append(middle + half * np.array([-1, 1, 1, -1, -1, np.nan]))
-        for name in dict.fromkeys(c.body for c in car.contacts):
-            x = [c.x for c in car.contacts if c.body == name]
-            bogies.append([middle + min(x) - 0.6, middle + max(x) + 0.6, np.nan])
-    wheels = at - np.array([axle.delay for axle in train.placed_axles])
+    for car in car_outlines(train, at):
+        rear, front = car.body
+        cars.append(np.array([rear, front, front, rear, rear, np.nan]))
+        bogies += [[x.min() - 0.6, x.max() + 0.6, np.nan] for x in car.bogies]
+    wheels = axle_places(train, at)
     level = np.tile([1.6, 1.6, 4.2, 4.2, 1.6, np.nan], len(cars))
     end = max(deck.length, at) + 12.0
     start = min(0.0, at - train.length) - 12.0

@@ -7,7 +7,8 @@ import numpy as np
 from ... import errors
 from ...results import Crossing
 from ...vehicles import FREEDOMS, Modes, Vehicle
-from ..drawing import GREY, LOOKS, MOTIONS, PALE
+from ..drawing import GREY, LOOKS, MOTIONS, PALE, round_below
+from ..outlines import car_outlines
 from ..sketches import VIEWS, body_boxes, body_levels, extent, mode_motion, moved, same_frequency, spring_ends, what_moves, zigzag
 from .player import INK, WIDE, Animation, Drawing, attributes, corners, mark, page, rounded
 
@@ -19,41 +20,6 @@ FEWEST, MOST = 4, 600
 _DECK = "#34495e"
 _MOTION, _FORCE = LOOKS["displacement_z"].colour, LOOKS["force_z"].colour
 
-# What `player` calls draw.
-_DRAW_MODE = """
-  const parts = all("[data-part]");
-  const draw = f => {
-    const s = Math.sin(2 * Math.PI * f / D.frames), t = f / D.frames * D.period;
-    parts.forEach((p, i) => p.setAttribute("points", D.rest[i].map((v, j) => (v + s * D.move[i][j]).toFixed(1)).join(" ")));
-    return t.toPrecision(2) + " s of " + D.period.toPrecision(3) + " s";
-  };
-"""
-_DRAW_CROSSING = """
-  const deck = all("[data-deck]"), train = all("[data-train]")[0], wheels = all("[data-wheel]"), bars = all("[data-bar]");
-  const dot = all("[data-dot]")[0], n = D.deck[0].length;
-  const draw = f => {
-    const k = Math.min(Math.floor(f), D.frames - 2), part = f - k, mix = (a, b) => a + (b - a) * part;
-    const y = D.deck[k].map((v, j) => mix(v, D.deck[k + 1][j]));
-    const points = y.map((v, j) => (D.left + D.span * j / (n - 1)).toFixed(1) + "," + (D.rail + v).toFixed(1)).join(" ");
-    deck.forEach(d => d.setAttribute("points", points));
-    const head = mix(D.head[k], D.head[k + 1]);
-    train.setAttribute("transform", "translate(" + head.toFixed(1) + " 0)");
-    wheels.forEach((wheel, a) => {
-      const x = head - D.delay[a], u = (x - D.left) / D.span * (n - 1), on = u >= 0 && u <= n - 1;
-      const j = Math.min(Math.floor(u), n - 2), low = D.rail + (on ? y[j] + (y[j + 1] - y[j]) * (u - j) : 0);
-      wheel.setAttribute("cx", x.toFixed(1));
-      wheel.setAttribute("cy", (low - 3.5).toFixed(1));
-      const [first, forces] = D.force[a], i = k - first, there = on && i >= 0 && i + 1 < forces.length;
-      const length = there ? mix(forces[i], forces[i + 1]) : 0;
-      for (const [key, v] of [["x1", x], ["x2", x], ["y1", low + 9], ["y2", low + 9 + length]])
-        bars[a].setAttribute(key, v.toFixed(1));
-      bars[a].setAttribute("stroke-opacity", there ? 1 : 0);
-    });
-    dot.setAttribute("cx", mix(D.dot[k][0], D.dot[k + 1][0]).toFixed(1));
-    dot.setAttribute("cy", mix(D.dot[k][1], D.dot[k + 1][1]).toFixed(1));
-    return "t = " + mix(D.time[k], D.time[k + 1]).toFixed(2) + " s, " + mix(D.value[k], D.value[k + 1]).toFixed(2) + " mm";
-  };
-"""
 
 
 def animate_vehicle_mode(vehicle: Vehicle, mode: int, frames: int = 24) -> Animation:
@@ -92,7 +58,7 @@ def animate_vehicle_mode(vehicle: Vehicle, mode: int, frames: int = 24) -> Anima
         "slider": "Time within one cycle", "rest": rest, "move": move,
     }  # fmt: skip
     drawing.write(10, drawing.height - 8, note, size=13)
-    return Animation(title, frames, page(drawing, title, words, data, _DRAW_MODE))
+    return Animation(title, frames, page(drawing, title, words, data, "mode"))
 
 
 def animate_crossing(run: Crossing, x: float | None = None, frames: int = 360, exaggeration: float | None = None) -> Animation:
@@ -126,7 +92,7 @@ def animate_crossing(run: Crossing, x: float | None = None, frames: int = 360, e
     scale = (WIDE - 40) / (deck.length + 2 * _margin(deck.length))  # px per m along the bridge
     largest = float(np.abs(shape).max())
     if exaggeration is None:
-        exaggeration = _round_below(26.0 / scale / largest) if largest > 0.0 else 1.0
+        exaggeration = round_below(26.0 / scale / largest) if largest > 0.0 else 1.0
     history = run.displacement(x)
     data = {
         "frames": frames, "start": int(np.abs(shape).max(axis=1).argmax()), "loop": False, "slider": "Time of the crossing",
@@ -146,7 +112,7 @@ def animate_crossing(run: Crossing, x: float | None = None, frames: int = 360, e
         f"displacement is {1e3 * sag[0]:.2f} mm at {sag[1]:.2f} s. {_pace(stop / data['seconds'])}"
     )
     title = f"{_who(run)} over {deck.name} at {speed:g} m/s, displacement {factor} times too large"
-    return Animation(title, frames, page(drawing, title, words, data, _DRAW_CROSSING))
+    return Animation(title, frames, page(drawing, title, words, data, "crossing"))
 
 
 # ---- the two drawings
@@ -186,6 +152,8 @@ def _mode_drawing(v: Vehicle, motion: dict[str, np.ndarray]) -> tuple[Drawing, l
         )
         drawing.add(shape, points=corners(b), **{"data-part": len(rest) - 1}, **shown)
 
+    rails = sorted({round(contact.y, 6) for contact in v.contacts})
+    wheels = {"side": [axle.x for axle in reversed(v.axles)], "front": rails}
     for view, (a, b) in VIEWS.items():
         name = {"side": "side", "top": "from above", "front": "looking forward"}[view]
         drawing.write(middle[view], axis - scale * half_y - 4 if view == "top" else 20, name, anchor="middle")
@@ -197,7 +165,7 @@ def _mode_drawing(v: Vehicle, motion: dict[str, np.ndarray]) -> tuple[Drawing, l
             half = scale * (half_x if view == "side" else half_y)
             line = {"x1": middle[view] - half, "x2": middle[view] + half, "y1": low, "y2": low}
             drawing.add("line", stroke=INK, **line)
-            for wheel in sorted({round((c.x, c.y)[view == "front"], 6) for c in v.contacts}):
+            for wheel in wheels[view]:
                 centre = place(view, np.array([[wheel, wheel, 0.46]]))[0]
                 look = {
                     "rx": 0.46 * scale if view == "side" else 0.09 * scale,
@@ -248,13 +216,13 @@ def _draw_bridge(drawing: Drawing, data: dict, run: Crossing, scale: float, time
     rest_line = {"stroke": GREY, "stroke-dasharray": "5 4", "stroke-width": 1}
     drawing.add("line", x1=left, x2=left + span, y1=rail, y2=rail, **rest_line)
     cars = []
-    for centre, car in [(c.centre, c.vehicle) for c in train.formation if c.vehicle is not None]:
-        half, middle = 0.47 * car.length, -centre
-        cars.append(mark("rect", x=scale * (middle - half), y=rail - 46, width=scale * 2 * half, height=28, rx=3))
-        for name in dict.fromkeys(c.body for c in car.contacts):
-            at = [middle + c.x for c in car.contacts if c.body == name]
-            wide = scale * (max(at) - min(at)) + 8
-            cars.append(mark("rect", x=scale * min(at) - 4, y=rail - 15, width=wide, height=5))
+    for car in car_outlines(train, 0.0):
+        rear, front = car.body
+        body = {"x": scale * rear, "y": rail - 46, "width": scale * (front - rear), "height": 28}
+        cars.append(mark("rect", **body, rx=3))
+        for at in car.bogies:
+            wide = scale * (at.max() - at.min()) + 8
+            cars.append(mark("rect", x=scale * at.min() - 4, y=rail - 15, width=wide, height=5))
     # All that moves stands where it is in the frame that is shown first.
     frame = data["start"]
     across, down = np.linspace(left, left + span, len(data["deck"][frame])), rail + np.array(data["deck"][frame])
@@ -314,18 +282,12 @@ def _pace(ratio: float) -> str:
 
 def _who(run: Crossing) -> str:
     cars = sum(car.vehicle is not None for car in run.train.formation)
-    axles = len({round(w.delay, 6) for w in run.train.wheels})
+    axles = len(run.train.placed_axles)
     count, word = (cars, "car") if cars else (axles, "axle")
     return f"{count} {word}" + "s" * (count != 1)
 
 
 # ---- numbers
-
-
-def _round_below(value: float) -> float:
-    """Return the largest of 1, 2, 3, 5 times a power of ten that is not above the value."""
-    power = 10.0 ** np.floor(np.log10(value))
-    return float(power * max(d for d in (1, 2, 3, 5) if d <= value / power * (1 + 1e-9)))
 
 
 def _ticks(low: float, high: float, most: int) -> np.ndarray:

@@ -9,10 +9,13 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from html import escape
+from importlib import resources
 from pathlib import Path
 
 import numpy as np
@@ -24,70 +27,6 @@ __all__ = ["INK", "WIDE", "Animation", "Drawing", "attributes", "corners", "mark
 WIDE = 900  # px, as the other figures
 INK = "#222222"
 
-# `D` is the data, `draw(f)` moves the drawing to frame f, which need not be whole, and returns what to say about it.
-_PLAYER = """
-(() => {
-const D = __DATA__;
-for (const root of document.querySelectorAll('[data-animation="__KEY__"]')) {
-  if (root.dataset.ready) continue;
-  root.dataset.ready = "yes";
-  const still = root.querySelector("img"), all = s => [...svg.querySelectorAll(s)];
-  const parsed = new DOMParser().parseFromString(atob(still.src.split(",")[1]), "image/svg+xml");
-  const svg = document.importNode(parsed.documentElement, true);
-  still.replaceWith(svg);
-  svg.setAttribute("aria-label", still.alt);
-__DRAW__
-  const bar = document.createElement("div"), button = document.createElement("button");
-  const slider = document.createElement("input"), says = document.createElement("span");
-  // JupyterLab then leaves arrow keys to the slider; it asks the focused element itself.
-  for (const control of [button, slider]) control.dataset.lmSuppressShortcuts = "true";
-  bar.style.cssText = "display:flex;flex-wrap:wrap;gap:10px;align-items:center;padding:4px 10px";
-  button.type = "button";
-  button.style.cssText = "min-width:5.5em;font:inherit;padding:3px 8px;color:#222;background:#eee;border:1px solid #777;"
-    + "border-radius:4px;cursor:pointer";
-  Object.assign(slider, {type: "range", min: 0, max: D.frames - 1, step: 1});
-  slider.style.cssText = "flex:1;min-width:120px;accent-color:#0072B2";
-  slider.setAttribute("aria-label", D.slider);
-  says.style.cssText = "min-width:15em;font-variant-numeric:tabular-nums";
-  const calm = matchMedia("(prefers-reduced-motion: reduce)"), last = D.loop ? D.frames : D.frames - 1;
-  let at = D.start, before = null;
-  const show = () => {
-    const words = draw(at);
-    says.textContent = words;
-    slider.value = Math.round(at);
-    slider.setAttribute("aria-valuetext", words);
-    const name = before !== null ? "Pause" : calm.matches ? "Step" : "Play";
-    if (button.textContent !== name) {
-      button.textContent = name;
-      button.setAttribute("aria-label", name + " animation");
-    }
-  };
-  const tick = now => {
-    if (before === null || !svg.isConnected) return;
-    at += (now - before) / 1000 * last / D.seconds;
-    before = now;
-    if (at >= last) { if (D.loop) at %= last; else { at = last; before = null; } }
-    show();
-    if (before !== null) requestAnimationFrame(tick);
-  };
-  button.onclick = () => {
-    if (before !== null) before = null;
-    else if (calm.matches) at = at >= D.frames - 1 ? 0 : Math.min(D.frames - 1, Math.round(at + D.frames / 24));
-    else {
-      if (!D.loop && at >= last) at = 0;
-      before = performance.now();
-      requestAnimationFrame(tick);
-    }
-    show();
-  };
-  slider.oninput = () => { before = null; at = +slider.value; show(); };
-  bar.append(button, slider, says);
-  svg.after(bar);
-  root.querySelector("[data-still]").remove();
-  show();
-}
-})();
-"""
 
 
 @dataclass(frozen=True)
@@ -183,6 +122,13 @@ def rounded(values: np.ndarray, digits: int = 1) -> list:
     return (np.round(np.asarray(values, dtype=float), digits) + 0.0).tolist()
 
 
+@cache
+def _script(name: str) -> str:
+    """Return a script that stands beside this file, without the comment on top."""
+    text = resources.files(__package__).joinpath(f"{name}.js").read_text(encoding="utf-8")
+    return "\n" + re.sub(r"\A(//.*\n)+", "", text)
+
+
 def page(drawing: Drawing, title: str, words: str, data: dict, draw: str) -> str:
     """Put picture, words and player together.
 
@@ -196,12 +142,12 @@ def page(drawing: Drawing, title: str, words: str, data: dict, draw: str) -> str
         What moves it: ``frames``, the first one shown (``start``), ``loop``, ``seconds`` a run, ``slider`` (its label), and what
         `draw` needs.
     draw : str
-        A script that defines ``draw``; see above.
+        Name of the script beside this file that defines ``draw``; see ``player.js``.
     """
     svg = drawing.svg()
     numbers = json.dumps(data, separators=(",", ":")).replace(".0,", ",").replace(".0]", "]").replace("<", "\\u003c")
     key = hashlib.sha256((svg + numbers).encode()).hexdigest()[:10]
-    script = _PLAYER.replace("__DRAW__", draw).replace("__KEY__", key).replace("__DATA__", numbers)
+    script = _script("player").replace("__DRAW__", _script(draw)).replace("__KEY__", key).replace("__DATA__", numbers)
     picture = b64encode(svg.encode("ascii")).decode("ascii")
     box = f"max-width:{WIDE}px;background:#fff;color:{INK};font:13px/1.4 sans-serif;border:1px solid #ccc"
     return (
