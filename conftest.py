@@ -1,4 +1,5 @@
-"""How notebooks are tested: nbval runs every cell; those marked `# NBVAL_CHECK_OUTPUT` must print what is stored."""
+"""How notebooks are tested: nbval runs every cell; those marked `# NBVAL_CHECK_OUTPUT` must print
+what is stored."""
 
 import os
 
@@ -38,5 +39,7 @@ def pytest_runtest_call(item):
     result = yield
     if is_notebook_cell(item) and item.options["check"] and not has_stored_text(item.cell):
         # nbval lets such a cell pass, as if an empty page agreed with every print.
-        item.raise_cell_error("Marked for comparison, but stored without output: run `make notebooks`.", "")
+        item.raise_cell_error(
+            "Marked for comparison, but stored without output: run `make notebooks`.", ""
+        )
     return result

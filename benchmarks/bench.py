@@ -1,6 +1,8 @@
-"""Time the paper's case, how it grows with the number of cars, and a plain integration of the same equations beside it.
+"""Time the paper's case, how it grows with the number of cars, and a plain integration of the same
+equations beside it.
 
-Everything is printed as a ratio within this one run, since seconds belong to the machine. `python benchmarks/bench.py`.
+Everything is printed as a ratio within this one run, since seconds belong to the machine. `python
+benchmarks/bench.py`.
 """
 
 import dataclasses
@@ -22,7 +24,8 @@ os.environ["OMP_NUM_THREADS"] = "1"
 import railbridge as rb
 run = rb.case("paper").replace({"run.iterations": 4}).run()
 run.displacement(18.0), run.section_forces(18.0), run.reactions(), run.wheel_forces
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024.0 if sys.platform != "darwin" else 1024.0**2))
+unit = 1024.0 if sys.platform != "darwin" else 1024.0**2
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / unit)
 """
 IMPORT = """
 import sys, time
@@ -41,7 +44,8 @@ print(time.perf_counter() - start)
 
 
 def best(run, *arguments, repeats=7):
-    """Return the shortest processor time of several runs, s: other programs on the machine count least in it."""
+    """Return the shortest processor time of several runs, s: other programs on the machine count
+    least in it."""
     times = []
     for _ in range(repeats):
         start = time.process_time()
@@ -51,8 +55,12 @@ def best(run, *arguments, repeats=7):
 
 
 def fresh(code, repeats=1):
-    """Run lines in a new Python; return its printed words, those of the smallest first number if repeated."""
-    answers = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True) for _ in range(repeats)]
+    """Run lines in a new Python; return its printed words, those of the smallest first number if
+    repeated."""
+    answers = [
+        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+        for _ in range(repeats)
+    ]
     return min((a.stdout.split() for a in answers), key=lambda words: float(words[0]))
 
 
@@ -62,15 +70,25 @@ def solve(case):
 
 
 def coupled(case):
-    """Return a function that integrates one car on the deck as one system of equations, as a textbook would write it."""
+    """Return a function that integrates one car on the deck as one system of equations, as a
+    textbook would write it."""
     car, deck, s = case.train.vehicle, case.deck, case.run().settings
     m, c, k = car.mass_matrix, car.damping_matrix, car.stiffness_matrix
     rows = car._contact_rows.reshape(-1, len(car.labels))
     kc, cc = car.contact_stiffness.ravel(), car.contact_damping.ravel()
     inverse, n, modes = np.linalg.inv(m), len(m), len(deck.frequencies_hz)
-    omega, y = 2 * np.pi * deck.frequencies_hz, np.array([w.y for w in case.train.wheels]) + s.track_offset
-    delays, static = np.array([w.delay for w in case.train.wheels]), case.train.car(1).static_forces.ravel()
-    rails = [(case.track.rail("lateral", w.side), case.track.rail("vertical", w.side)) for w in case.train.wheels]
+    omega, y = (
+        2 * np.pi * deck.frequencies_hz,
+        np.array([w.y for w in case.train.wheels]) + s.track_offset,
+    )
+    delays, static = (
+        np.array([w.delay for w in case.train.wheels]),
+        case.train.car(1).static_forces.ravel(),
+    )
+    rails = [
+        (case.track.rail("lateral", w.side), case.track.rail("vertical", w.side))
+        for w in case.train.wheels
+    ]
     stop = (deck.length + case.train.length) / s.speed
 
     def rate(t, state):
@@ -78,25 +96,48 @@ def coupled(case):
         place = s.speed * t - delays
         on = ((place >= 0) & (place <= deck.length))[:, None]
         value, slope = deck.shapes(place) * on[..., None], deck.shapes(place, 1) * on[..., None]
-        shape = np.stack([value[:, :, 0], value[:, :, 1] + y[:, None] * value[:, :, 2]], axis=1).reshape(-1, modes)
-        tilt = np.stack([slope[:, :, 0], slope[:, :, 1] + y[:, None] * slope[:, :, 2]], axis=1).reshape(-1, modes)
-        r = np.array([[i.value(p) for i in pair] for pair, p in zip(rails, place, strict=True)]).ravel()
-        dr = np.array([[i.slope(p) for i in pair] for pair, p in zip(rails, place, strict=True)]).ravel() * s.speed
+        shape = np.stack(
+            [value[:, :, 0], value[:, :, 1] + y[:, None] * value[:, :, 2]], axis=1
+        ).reshape(-1, modes)
+        tilt = np.stack(
+            [slope[:, :, 0], slope[:, :, 1] + y[:, None] * slope[:, :, 2]], axis=1
+        ).reshape(-1, modes)
+        r = np.array(
+            [[i.value(p) for i in pair] for pair, p in zip(rails, place, strict=True)]
+        ).ravel()
+        dr = (
+            np.array(
+                [[i.slope(p) for i in pair] for pair, p in zip(rails, place, strict=True)]
+            ).ravel()
+            * s.speed
+        )
         r, dr = r + shape @ q, dr + shape @ dq + s.speed * (tilt @ q)
         force = kc * (rows @ x - r) + cc * (rows @ v - dr)
         load = force + static
         acceleration = inverse @ (rows.T @ (kc * r + cc * dr) - c @ v - k @ x)
-        return np.concatenate([v, acceleration, dq, shape.T @ load - 2 * deck.damping_ratios * omega * dq - omega**2 * q])
+        return np.concatenate(
+            [
+                v,
+                acceleration,
+                dq,
+                shape.T @ load - 2 * deck.damping_ratios * omega * dq - omega**2 * q,
+            ]
+        )
 
     start = np.zeros(2 * (n + modes))
-    return lambda: solve_ivp(rate, (0.0, stop), start, method="RK45", rtol=1e-4, atol=1e-8, max_step=5e-3)
+    return lambda: solve_ivp(
+        rate, (0.0, stop), start, method="RK45", rtol=1e-4, atol=1e-8, max_step=5e-3
+    )
 
 
 def main():
     paper = rb.case("paper").replace({"run.iterations": 4})
     solve(paper)
     unit = best(solve, paper, repeats=15)
-    print(f"paper's case: 8 cars, 5 deck-and-train solves, 1 ms       1.00   ({unit:.3f} s of processor time)")
+    print(
+        f"paper's case: 8 cars, 5 deck-and-train solves, 1 ms       1.00   ({unit:.3f} s of "
+        "processor time)"
+    )
     print("\ncars   time / paper's case   time per car / that of one car   (condensed, the same)")
     first = None
     for cars in (1, 2, 4, 8, 16):
@@ -109,22 +150,42 @@ def main():
     print("\nwheels, to 1e-8     iterated   solved together at every step   together / iterated")
     for cars in (1, 8):
         case = rb.case("paper").replace({"train.cars": cars, "run.loads": "wheels"})
-        iterated, together = best(solve, case, repeats=2), best(solve, case.replace({"run.interaction": "direct"}), repeats=2)
-        print(f"  {cars} cars {iterated / unit:18.2f} {together / unit:31.2f} {together / iterated:21.1f}")
+        iterated, together = (
+            best(solve, case, repeats=2),
+            best(solve, case.replace({"run.interaction": "direct"}), repeats=2),
+        )
+        print(
+            f"  {cars} cars {iterated / unit:18.2f} {together / unit:31.2f} "
+            f"{together / iterated:21.1f}"
+        )
     one = rb.case("paper").replace(
-        {"train.cars": 1, "run.loads": "wheels", "run.lead_in": 0.0, "run.tail": 0.0, "track.lateral.phase": 0.0}
+        {
+            "train.cars": 1,
+            "run.loads": "wheels",
+            "run.lead_in": 0.0,
+            "run.tail": 0.0,
+            "track.lateral.phase": 0.0,
+        }
     )
     converged, plain = best(solve, one), best(coupled(one), repeats=1)
     print(f"\none car, wheels, to 1e-8: suite                            {converged / unit:.2f}")
     print(
-        f"the same by scipy.integrate.solve_ivp (RK45, 1e-4)       {plain / unit:.1f}   {plain / converged:.0f} times the suite's"
+        f"the same by scipy.integrate.solve_ivp (RK45, 1e-4)       {plain / unit:.1f}   "
+        f"{plain / converged:.0f} times the suite's"
     )
     took = best(lambda: dataclasses.replace(rb.deck("viaduct36").recovery.beam).modes, repeats=15)
-    print(f"\nbeam modes of the paper's deck, mesh built anew: {took / unit:.2f}   ({took * 1e3:.0f} ms, to stay below 50)")
-    print(f"\npeak memory of the paper's case, with its results: {float(fresh(MEMORY)[0]):.0f} MB (to stay below 400)")
+    print(
+        f"\nbeam modes of the paper's deck, mesh built anew: {took / unit:.2f}   "
+        f"({took * 1e3:.0f} ms, to stay below 50)"
+    )
+    print(
+        f"\npeak memory of the paper's case, with its results: {float(fresh(MEMORY)[0]):.0f} "
+        "MB (to stay below 400)"
+    )
     took, *loaded = fresh(IMPORT, 3)
     print(
-        f"import railbridge: {float(took) / float(fresh(NEEDED, 3)[0]):.2f} times the import of what it needs of numpy and scipy"
+        f"import railbridge: {float(took) / float(fresh(NEEDED, 3)[0]):.2f} times the import "
+        "of what it needs of numpy and scipy"
     )
     print(f"plots, tables and widgets it loads: {', '.join(loaded) or 'none'}")
 

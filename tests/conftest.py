@@ -1,7 +1,8 @@
 import matplotlib
 from hypothesis import settings
 
-# They need a browser and a minute or more: `make test-browser` names their folder, `make test` passes it by.
+# They need a browser and a minute or more: `make test-browser` names their folder, `make test`
+# passes it by.
 collect_ignore = ["browser"]
 
 matplotlib.use("agg")  # figures are drawn into memory; no test opens a window

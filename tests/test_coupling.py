@@ -1,4 +1,5 @@
-"""The fixed point is the coupled solution: a sprung mass on sine modes, integrated as one system of equations."""
+"""The fixed point is the coupled solution: a sprung mass on sine modes, integrated as one system of
+equations."""
 
 import numpy as np
 import pytest
@@ -15,7 +16,8 @@ AMPLITUDE, WAVELENGTH, PHASE = 2e-3, 7.0, 0.0
 
 
 def coupled(speed, t):
-    """Independent: (z, q, z', q') with the wheel riding on r(Vt) + w(Vt, t), convective term included. Returns q and force."""
+    """Independent: (z, q, z', q') with the wheel riding on r(Vt) + w(Vt, t), convective term
+    included. Returns q and force."""
     n = np.arange(1, MODES + 1)
     omega = (n * np.pi / L) ** 2 * np.sqrt(EI / MASS)
     norm = np.sqrt(2 / MASS / L)
@@ -23,7 +25,10 @@ def coupled(speed, t):
     def contact(time, y):
         z, q, vz, vq = y[0], y[1 : 1 + MODES], y[1 + MODES], y[2 + MODES :]
         x = speed * time
-        phi, slope = norm * np.sin(n * np.pi * x / L), norm * n * np.pi / L * np.cos(n * np.pi * x / L)
+        phi, slope = (
+            norm * np.sin(n * np.pi * x / L),
+            norm * n * np.pi / L * np.cos(n * np.pi * x / L),
+        )
         k = 2 * np.pi / WAVELENGTH
         wheel = AMPLITUDE * np.sin(k * x + PHASE) + phi @ q
         rate = AMPLITUDE * k * speed * np.cos(k * x + PHASE) + phi @ vq + speed * (slope @ q)
@@ -35,7 +40,15 @@ def coupled(speed, t):
         accelerations = phi * (force - CAR_MASS * 9.81) - 2 * RATIO * omega * vq - omega**2 * q
         return np.concatenate([[y[1 + MODES]], vq, [-force / CAR_MASS], accelerations])
 
-    solution = solve_ivp(motion, (0, t[-1]), np.zeros(2 + 2 * MODES), method="DOP853", rtol=1e-11, atol=1e-14, t_eval=t)
+    solution = solve_ivp(
+        motion,
+        (0, t[-1]),
+        np.zeros(2 + 2 * MODES),
+        method="DOP853",
+        rtol=1e-11,
+        atol=1e-14,
+        t_eval=t,
+    )
     force = np.array([contact(time, y)[0] for time, y in zip(t, solution.y.T, strict=True)])
     shape = norm * np.sin(n * np.pi / 2)
     return shape @ solution.y[1 : 1 + MODES], force - CAR_MASS * 9.81
@@ -45,7 +58,9 @@ def suite(speed, step, **options):
     car = rb.sprung_mass("mass", CAR_MASS, STIFFNESS, DAMPING)
     deck = rb.Beam("beam", (L,), MASS, EI, elements=60).deck(MODES, RATIO)
     track = rb.Track(rb.Harmonic(AMPLITUDE, wavelength=WAVELENGTH, phase=PHASE))
-    return rb.cross(rb.Train(car), deck, track, speed=speed, time_step=step, lead_in=0.0, tail=0.0, **options)
+    return rb.cross(
+        rb.Train(car), deck, track, speed=speed, time_step=step, lead_in=0.0, tail=0.0, **options
+    )
 
 
 @pytest.mark.parametrize("speed", [15.0, 27.78, 70.0])
@@ -56,11 +71,15 @@ def test_the_limit_is_the_coupled_solution(speed):
     ours = run.displacement(L / 2)["displacement_z"][on]
     # The mesh's modes and the sampling stay; the rigid-deck guess is hundreds of times worse.
     error = np.abs(ours - deflection).max() / np.abs(deflection).max()
-    rigid = np.abs(run.at(0).displacement(L / 2)["displacement_z"][on] - deflection).max() / np.abs(deflection).max()
+    rigid = (
+        np.abs(run.at(0).displacement(L / 2)["displacement_z"][on] - deflection).max()
+        / np.abs(deflection).max()
+    )
     assert error < 2e-5
     assert rigid > 500 * error
     dynamic = np.abs(force + CAR_MASS * 9.81).max()
-    # r' jumps when the wheel enters the waves and the deck: the first samples of the force know it a step late.
+    # r' jumps when the wheel enters the waves and the deck: the first samples of the force know it
+    # a step late.
     assert run.wheel_forces[0, 1][on][20:] == pytest.approx(force[20:], abs=4e-3 * dynamic)
 
 
@@ -68,8 +87,13 @@ def test_each_pass_is_nearer_to_the_coupled_solution():
     run = suite(27.78, 1e-3, iterations=5)
     on = 27.78 * run.time < L - 1e-6
     deflection, _ = coupled(27.78, run.time[on])
-    errors = [np.abs(run.at(i).displacement(L / 2)["displacement_z"][on] - deflection).max() for i in range(6)]
-    assert errors[1] < 0.5 * errors[0] and errors[2] < 0.5 * errors[1] and errors[5] < 0.02 * errors[0]
+    errors = [
+        np.abs(run.at(i).displacement(L / 2)["displacement_z"][on] - deflection).max()
+        for i in range(6)
+    ]
+    assert (
+        errors[1] < 0.5 * errors[0] and errors[2] < 0.5 * errors[1] and errors[5] < 0.02 * errors[0]
+    )
 
 
 def test_error_falls_with_the_square_of_the_step():
@@ -83,19 +107,27 @@ def test_error_falls_with_the_square_of_the_step():
 
 
 def test_convective_term_counts_more_the_faster_the_train():
-    """Static deflection under a wheel that only feels V w' through its damper: force = -c V w'(x) q."""
+    """Static deflection under a wheel that only feels V w' through its damper: force = -c V w'(x)
+    q."""
     forces = []
     for speed in (20.0, 40.0):
-        train, deck = rb.Train(rb.sprung_mass("m", 1e5, 1e3, 1e4)), rb.Beam("b", (L,), MASS, EI).deck(1, 0.0)
+        train, deck = (
+            rb.Train(rb.sprung_mass("m", 1e5, 1e3, 1e4)),
+            rb.Beam("b", (L,), MASS, EI).deck(1, 0.0),
+        )
         s = check(train, deck, rb.Track(), speed=speed, time_step=1e-3)
         coupling = prepare(train, deck, rb.Track(), s)
         state = coupling.deck_state(coupling.station_loads(coupling.nothing_added()))
-        frozen = type(state)(np.full_like(state.q, -1.0), np.zeros_like(state.velocity), state.modal_force)
+        frozen = type(state)(
+            np.full_like(state.q, -1.0), np.zeros_like(state.velocity), state.modal_force
+        )
         u = coupling.support_input(frozen, coupling.cars)[0, 1, 0]
         x = speed * s.time_step * (np.arange(u.size) + coupling.cars[0].window.start)
         on = (x > 0.1) & (x < L - 0.1)
         norm = np.sqrt(2 / MASS / L)
-        expected = -norm * (1e3 * np.sin(np.pi * x / L) + 1e4 * speed * np.pi / L * np.cos(np.pi * x / L))
+        expected = -norm * (
+            1e3 * np.sin(np.pi * x / L) + 1e4 * speed * np.pi / L * np.cos(np.pi * x / L)
+        )
         assert u[on] == pytest.approx(expected[on], rel=1e-3, abs=1e-3 * np.abs(expected).max())
         forces.append(np.abs(u).max())
     assert forces[1] / forces[0] == pytest.approx(2.0, rel=0.01)
@@ -106,7 +138,9 @@ def test_changes_are_what_they_are_said_to_be():
     window = run.coupling.cars[0].window
     for i in range(1, 5):
         new, old = (run.at(j).wheel_forces[0, 1, window] + CAR_MASS * 9.81 for j in (i, i - 1))
-        assert run.changes[i - 1] == pytest.approx(np.sqrt(np.mean((new - old) ** 2) / np.mean(new**2)), rel=1e-6)
+        assert run.changes[i - 1] == pytest.approx(
+            np.sqrt(np.mean((new - old) ** 2) / np.mean(new**2)), rel=1e-6
+        )
     assert run.ratios == pytest.approx(np.array(run.changes[1:]) / np.array(run.changes[:-1]))
 
 
@@ -118,9 +152,15 @@ def test_it_stops_below_the_tolerance_twice_in_a_row():
 
 
 def test_every_wheel_feels_the_deck_at_its_own_place():
-    """v at the axis, w + y theta under the wheel, each with its total derivative; springs and dampers of Table 1 by hand."""
+    """v at the axis, w + y theta under the wheel, each with its total derivative; springs and
+    dampers of Table 1 by hand."""
     rng = np.random.default_rng(2)
-    train, deck, offset, speed = rb.Train(rb.vehicle("xia2000"), cars=2), rb.deck("viaduct36"), 2.4, 25.0
+    train, deck, offset, speed = (
+        rb.Train(rb.vehicle("xia2000"), cars=2),
+        rb.deck("viaduct36"),
+        2.4,
+        25.0,
+    )
     s = check(train, deck, rb.Track(), speed=speed, time_step=2e-3, track_offset=offset)
     coupling = prepare(train, deck, rb.Track(), s)
     state = coupling.deck_state(coupling.station_loads(coupling.nothing_added()))
@@ -130,7 +170,9 @@ def test_every_wheel_feels_the_deck_at_its_own_place():
         window = coupling.cars[car].window
         for wheel in (w for w in train.wheels if w.car == car + 1):
             place = speed * coupling.time[window] - wheel.delay
-            on = np.min(np.abs(place[:, None] - deck.shapes.edges), axis=1) > 1e-6  # the slope of twist has corners there
+            on = (
+                np.min(np.abs(place[:, None] - deck.shapes.edges), axis=1) > 1e-6
+            )  # the slope of twist has corners there
             on &= (place > 0.0) & (place < deck.length)
             met, slope = deck.shapes(place[on]), deck.shapes(place[on], 1)
             here, now = q[:, window][:, on], velocity[:, window][:, on]
@@ -147,19 +189,31 @@ def test_every_wheel_feels_the_deck_at_its_own_place():
 
 
 def test_an_iteration_that_overflows_has_not_converged():
-    """A feather of a deck: the changes grow until forces are no numbers any more, which is not 'no change'."""
+    """A feather of a deck: the changes grow until forces are no numbers any more, which is not 'no
+    change'."""
     deck = rb.Beam("beam", (36.0,), 1.0, 8e10).deck(5, 0.0)
     train = rb.Train(rb.vehicle("xia2000_planar"), cars=2)
     track = rb.Track(rb.Harmonic(2e-3, wavelength=10.0))
     with np.errstate(all="ignore"), pytest.raises(rb.NotConvergedError) as caught:
-        rb.cross(train, deck, track, speed=20.0, time_step=2e-3, lead_in=0.0, tail=0.0, max_iterations=300)
+        rb.cross(
+            train,
+            deck,
+            track,
+            speed=20.0,
+            time_step=2e-3,
+            lead_in=0.0,
+            tail=0.0,
+            max_iterations=300,
+        )
     assert not caught.value.run.converged and not np.isfinite(caught.value.run.changes[-1])
     assert caught.value.run.iterations < 300
 
 
 def test_a_vehicle_without_weight_on_the_rail_converges_by_its_lateral_forces():
     body = Body("mass", 1e4, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), ("y",))
-    car = Vehicle("lateral", (body,), (Spring("mass", "rail", (0.0, 0.0, 0.0), (1e6, 0.0), (1e4, 0.0)),), 10.0)
+    car = Vehicle(
+        "lateral", (body,), (Spring("mass", "rail", (0.0, 0.0, 0.0), (1e6, 0.0), (1e4, 0.0)),), 10.0
+    )
     track = rb.Track(lateral=rb.Harmonic(1e-3, wavelength=10.0))
     run = rb.cross(rb.Train(car), rb.deck("viaduct36"), track, speed=20.0, tail=0.0)
     assert run.converged and run.iterations > 2

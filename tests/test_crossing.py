@@ -1,4 +1,5 @@
-"""Crossings: the numbers the paper's case gives, symmetries, limits, and what is refused or warned about."""
+"""Crossings: the numbers the paper's case gives, symmetries, limits, and what is refused or warned
+about."""
 
 import warnings
 from dataclasses import replace
@@ -15,7 +16,9 @@ from railbridge.vehicles import Body, Spring, Vehicle
 CAR = rb.vehicle("xia2000")
 DECK = rb.deck("viaduct36")
 PAPER = rb.case("paper")
-WAVES = rb.Track(rb.Harmonic(5e-3, wavelength=14.4), rb.Harmonic(2e-3, wavelength=14.4, phase=np.pi / 2))
+WAVES = rb.Track(
+    rb.Harmonic(5e-3, wavelength=14.4), rb.Harmonic(2e-3, wavelength=14.4, phase=np.pi / 2)
+)
 
 
 @lru_cache
@@ -24,7 +27,8 @@ def paper(cars, loads):
 
 
 def peaks(run):
-    """Mid-span displacement (mm) and moments, largest reaction and torsion there (kN, kN m), acceleration (m/s2)."""
+    """Mid-span displacement (mm) and moments, largest reaction and torsion there (kN, kN m),
+    acceleration (m/s2)."""
     forces, reactions = run.section_forces(18.0), run.reactions().values()
     return [
         abs(run.displacement(18.0).extreme("displacement_z")[0]) * 1e3,
@@ -68,32 +72,54 @@ def test_equation_3_of_the_paper_s_case(loads, from_previous):
 
 def test_self_weight_stands_apart():
     run = paper(8, "condensed")
-    for quantity, at in [("displacement_z", run.displacement), ("moment_vertical", run.section_forces)]:
+    for quantity, at in [
+        ("displacement_z", run.displacement),
+        ("moment_vertical", run.section_forces),
+    ]:
         weight = at(18.0, self_weight=True)[quantity] - at(18.0)[quantity]
         assert np.ptp(weight) < 1e-9 * abs(weight[0])
-        assert weight[0] == pytest.approx({"displacement_z": -28.812e-3, "moment_vertical": -19070.6e3}[quantity], rel=1e-4)
+        assert weight[0] == pytest.approx(
+            {"displacement_z": -28.812e-3, "moment_vertical": -19070.6e3}[quantity], rel=1e-4
+        )
     total = run.reactions(self_weight=True)[0.0]["force_z"][0] - run.reactions()[0.0]["force_z"][0]
     assert total == pytest.approx(12e3 * 9.81 * 18.0)
 
 
 def test_before_the_train_and_long_after_it_nothing_moves():
-    run = PAPER.replace({"train.cars": 1, "run.loads": "wheels", "run.tail": 12.0, "run.time_step": 2e-3}).run()
+    run = PAPER.replace(
+        {"train.cars": 1, "run.loads": "wheels", "run.tail": 12.0, "run.time_step": 2e-3}
+    ).run()
     y = run.displacement(18.0)["displacement_z"]
     assert y[0] == 0.0
     assert np.abs(y[-100:]).max() < 1e-3 * np.abs(y).max()
 
 
 def test_reactions_carry_the_deck_s_loads_and_inertia():
-    """Sum of reactions + wheel forces = rate of momentum, the deck's inertia by quadrature of accelerations."""
+    """Sum of reactions + wheel forces = rate of momentum, the deck's inertia by quadrature of
+    accelerations."""
     deck = rb.Beam("deck", (36.0,), 12e3, 8.93e10).deck(40, 0.0)
-    run = rb.cross(rb.Train(rb.planar_car(CAR)), deck, WAVES, speed=20.0, time_step=1e-3, iterations=6)
+    run = rb.cross(
+        rb.Train(rb.planar_car(CAR)), deck, WAVES, speed=20.0, time_step=1e-3, iterations=6
+    )
     x, w = np.polynomial.legendre.leggauss(30)
     x, w = 18 * (x + 1), 18 * w
-    inertia = 12e3 * sum(wi * run.acceleration(xi)["acceleration_z"] for xi, wi in zip(x, w, strict=True))
-    on = [(20.0 * run.time - wheel.delay > 0.05) & (20.0 * run.time - wheel.delay < 35.95) for wheel in run.train.wheels]
+    inertia = 12e3 * sum(
+        wi * run.acceleration(xi)["acceleration_z"] for xi, wi in zip(x, w, strict=True)
+    )
+    on = [
+        (20.0 * run.time - wheel.delay > 0.05) & (20.0 * run.time - wheel.delay < 35.95)
+        for wheel in run.train.wheels
+    ]
     loads = sum(np.where(here, f[1], 0.0) for here, f in zip(on, run.wheel_forces, strict=True))
     reactions = sum(r["force_z"] for r in run.reactions().values())
-    near_edge = np.any([np.abs(20.0 * run.time - wheel.delay - e) < 0.1 for wheel in run.train.wheels for e in (0, 36)], axis=0)
+    near_edge = np.any(
+        [
+            np.abs(20.0 * run.time - wheel.delay - e) < 0.1
+            for wheel in run.train.wheels
+            for e in (0, 36)
+        ],
+        axis=0,
+    )
     balance = (reactions + loads - inertia)[~near_edge]
     assert np.abs(balance).max() < 0.02 * np.abs(reactions).max()
 
@@ -111,9 +137,14 @@ def test_a_very_stiff_deck_gives_the_rigid_forces():
 
 
 def test_iteration_zero_is_the_rigid_deck():
-    run, rigid = paper(1, "wheels"), PAPER.replace({"train.cars": 1, "run.interaction": "rigid", "run.loads": "wheels"}).run()
+    run, rigid = (
+        paper(1, "wheels"),
+        PAPER.replace({"train.cars": 1, "run.interaction": "rigid", "run.loads": "wheels"}).run(),
+    )
     assert run.at(0).wheel_forces == pytest.approx(rigid.wheel_forces, rel=1e-12)
-    assert run.at(0).displacement(18.0)["displacement_z"] == pytest.approx(rigid.displacement(18.0)["displacement_z"])
+    assert run.at(0).displacement(18.0)["displacement_z"] == pytest.approx(
+        rigid.displacement(18.0)["displacement_z"]
+    )
     assert run.at(run.iterations).spectrum.amplitude == pytest.approx(run.spectrum.amplitude)
     with pytest.raises(rb.InputError, match="iteration"):
         run.at(run.iterations + 1)
@@ -123,8 +154,12 @@ def test_iteration_zero_is_the_rigid_deck():
 @settings(max_examples=3)
 def test_dynamic_forces_are_linear_in_the_irregularity(scale):
     def dynamic(amplitude):
-        track = rb.Track(rb.Harmonic(amplitude, wavelength=14.4), rb.Harmonic(0.4 * amplitude, wavelength=14.4))
-        return rb.cross(rb.Train(CAR), DECK, track, speed=20.0, time_step=4e-3, iterations=3).wheel_forces
+        track = rb.Track(
+            rb.Harmonic(amplitude, wavelength=14.4), rb.Harmonic(0.4 * amplitude, wavelength=14.4)
+        )
+        return rb.cross(
+            rb.Train(CAR), DECK, track, speed=20.0, time_step=4e-3, iterations=3
+        ).wheel_forces
 
     level = dynamic(0.0)
     once, scaled = dynamic(5e-3) - level, dynamic(5e-3 * scale) - level
@@ -132,30 +167,52 @@ def test_dynamic_forces_are_linear_in_the_irregularity(scale):
 
 
 @given(
-    offset=st.floats(0.0, 3.0), phase=st.floats(-3, 3), loads=st.sampled_from(["wheels", "bogies", "condensed"]),
+    offset=st.floats(0.0, 3.0), phase=st.floats(-3, 3), loads=st.sampled_from(["wheels", "bogies",
+    "condensed"]),
 )  # fmt: skip
 @settings(max_examples=5)
 def test_left_and_right_are_mirror_images(offset, phase, loads):
-    left, right = (rb.Harmonic(a, wavelength=w, phase=phase) for a, w in ((5e-3, 14.4), (3e-3, 11.0)))
+    left, right = (
+        rb.Harmonic(a, wavelength=w, phase=phase) for a, w in ((5e-3, 14.4), (3e-3, 11.0))
+    )
     sway = rb.Harmonic(2e-3, wavelength=13.0)
     mirrored = rb.Harmonic(2e-3, wavelength=13.0, phase=np.pi)
     options = {"speed": 20.0, "time_step": 4e-3, "iterations": 3, "loads": loads}
-    a = rb.cross(rb.Train(CAR), DECK, rb.Track(rb.Rails(left, right), sway), track_offset=offset, **options)
-    b = rb.cross(rb.Train(CAR), DECK, rb.Track(rb.Rails(right, left), mirrored), track_offset=-offset, **options)
-    swapped = b.wheel_forces.reshape(4, 2, 2, -1)[:, ::-1].reshape(a.wheel_forces.shape) * np.array([-1, 1])[:, None]
+    a = rb.cross(
+        rb.Train(CAR), DECK, rb.Track(rb.Rails(left, right), sway), track_offset=offset, **options
+    )
+    b = rb.cross(
+        rb.Train(CAR),
+        DECK,
+        rb.Track(rb.Rails(right, left), mirrored),
+        track_offset=-offset,
+        **options,
+    )
+    swapped = (
+        b.wheel_forces.reshape(4, 2, 2, -1)[:, ::-1].reshape(a.wheel_forces.shape)
+        * np.array([-1, 1])[:, None]
+    )
     assert a.wheel_forces == pytest.approx(swapped, abs=1e-4)
     y, z = a.displacement(11.0), b.displacement(11.0)
     for name, sign in [("displacement_y", -1), ("displacement_z", 1), ("rotation_x", -1)]:
         assert y[name] == pytest.approx(sign * z[name], abs=1e-10)
     for name, sign in [("moment_vertical", 1), ("moment_lateral", -1), ("torsion", -1)]:
-        assert a.section_forces(11.0)[name] == pytest.approx(sign * b.section_forces(11.0)[name], abs=1e-2)
+        assert a.section_forces(11.0)[name] == pytest.approx(
+            sign * b.section_forces(11.0)[name], abs=1e-2
+        )
 
 
 def test_the_deck_moves_to_the_side_of_the_train_and_twists_towards_it():
     run = rb.cross(rb.Train(CAR), DECK, speed=5.0, time_step=5e-3, track_offset=2.4)
     i = np.argmin(run.displacement(18.0)["displacement_z"])
-    assert run.displacement(18.0)["rotation_x"][i] < 0  # a load to the left (y > 0) lowers the left: roll about x negative
-    static = DECK.recovery.section("rotation_x", 18.0).influence(np.array([18.0]))[0, 0, 2] * -2.4 * CAR.weight
+    assert (
+        run.displacement(18.0)["rotation_x"][i] < 0
+    )  # a load to the left (y > 0) lowers the left: roll about x negative
+    static = (
+        DECK.recovery.section("rotation_x", 18.0).influence(np.array([18.0]))[0, 0, 2]
+        * -2.4
+        * CAR.weight
+    )
     assert 0.3 < run.displacement(18.0)["rotation_x"][i] / static < 1.0
 
 
@@ -163,7 +220,9 @@ def test_aligned_and_unaligned_steps_agree():
     """A given step that cars do not meet alike, against the chosen one, which they do."""
     train = rb.Train(CAR, cars=3, car_spacing=22.5731)
     chosen = rb.cross(train, DECK, WAVES, speed=20.0, track_offset=2.4, tolerance=1e-6)
-    given_step = rb.cross(train, DECK, WAVES, speed=20.0, track_offset=2.4, time_step=1e-3, tolerance=1e-6)
+    given_step = rb.cross(
+        train, DECK, WAVES, speed=20.0, track_offset=2.4, time_step=1e-3, tolerance=1e-6
+    )
     steps_between_cars = [22.5731 / 20.0 / run.settings.time_step for run in (chosen, given_step)]
     assert steps_between_cars[0] == pytest.approx(round(steps_between_cars[0]), abs=1e-6)
     assert abs(steps_between_cars[1] - round(steps_between_cars[1])) > 0.1
@@ -176,10 +235,20 @@ def test_aligned_and_unaligned_steps_agree():
 
 def test_displacements_converge_with_the_square_of_the_step():
     def midspan(step):
-        run = rb.cross(rb.Train(CAR), DECK, WAVES, speed=20.0, track_offset=2.4, time_step=step, iterations=8, tail=0.2)
+        run = rb.cross(
+            rb.Train(CAR),
+            DECK,
+            WAVES,
+            speed=20.0,
+            track_offset=2.4,
+            time_step=step,
+            iterations=8,
+            tail=0.2,
+        )
         return run.displacement(18.0)["displacement_z"][:: round(8e-3 / step)]
 
-    # 36 m, the axles and the step of 8 ms meet only at some samples: an axle that enters between samples costs accuracy.
+    # 36 m, the axles and the step of 8 ms meet only at some samples: an axle that enters between
+    # samples costs accuracy.
     fine, coarse, middle = (midspan(s) for s in (5e-4, 8e-3, 4e-3))
     n = min(map(len, (fine, coarse, middle)))
     e1, e2 = (np.abs(x[:n] - fine[:n]).max() for x in (coarse, middle))
@@ -190,7 +259,15 @@ def test_displacements_converge_with_the_square_of_the_step():
 @pytest.mark.parametrize("relaxation", [0.5, "aitken"])
 def test_relaxation_reaches_the_same_limit(relaxation):
     plain = rb.cross(rb.Train(CAR), DECK, WAVES, speed=20.0, time_step=2e-3)
-    relaxed = rb.cross(rb.Train(CAR), DECK, WAVES, speed=20.0, time_step=2e-3, relaxation=relaxation, max_iterations=100)
+    relaxed = rb.cross(
+        rb.Train(CAR),
+        DECK,
+        WAVES,
+        speed=20.0,
+        time_step=2e-3,
+        relaxation=relaxation,
+        max_iterations=100,
+    )
     assert relaxed.converged
     assert relaxed.wheel_forces == pytest.approx(plain.wheel_forces, abs=1e-7 * CAR.weight)
 
@@ -205,11 +282,15 @@ def test_no_silent_non_convergence():
         rb.cross(train, light(2e3), WAVES, speed=20.0, time_step=2e-3, max_iterations=6)
     run = error.value.run
     assert run.converged is False and len(run.changes) == run.iterations == 6
-    assert run.at(2).displacement(18.0)["displacement_z"].min() < 0  # everything computed so far can be read
+    assert (
+        run.at(2).displacement(18.0)["displacement_z"].min() < 0
+    )  # everything computed so far can be read
     assert len(run.ratios) == 5
     given_number = rb.cross(train, light(2e3), WAVES, speed=20.0, time_step=2e-3, iterations=6)
     assert given_number.converged is False  # asked for six, got six, and it says so
-    helped = rb.cross(train, light(2e3), WAVES, speed=20.0, time_step=2e-3, relaxation=0.4, max_iterations=200)
+    helped = rb.cross(
+        train, light(2e3), WAVES, speed=20.0, time_step=2e-3, relaxation=0.4, max_iterations=200
+    )
     assert helped.converged
 
 
@@ -217,11 +298,19 @@ def test_a_diverging_iteration_stops_with_an_error_not_with_numbers():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
         with pytest.raises(rb.NotConvergedError):
-            rb.cross(rb.Train(rb.planar_car(CAR), cars=3), light(50.0), speed=60.0, time_step=2e-3, max_iterations=40)
+            rb.cross(
+                rb.Train(rb.planar_car(CAR), cars=3),
+                light(50.0),
+                speed=60.0,
+                time_step=2e-3,
+                max_iterations=40,
+            )
 
 
 def test_wheel_forces_after_the_deck_are_continuous_and_decay():
-    run = rb.cross(rb.Train(CAR, cars=2), DECK, speed=20.0, track_offset=2.4, tail=12.0, time_step=1e-3)
+    run = rb.cross(
+        rb.Train(CAR, cars=2), DECK, speed=20.0, track_offset=2.4, tail=12.0, time_step=1e-3
+    )
     static = CAR.contacts[0].static_load
     moving = run.wheel_forces[:8, 1] + static  # level track: only the deck moves the car
     stop = run.coupling.cars[0].window.stop
@@ -242,11 +331,19 @@ def test_car_forces_are_the_sum_of_its_wheels():
     run = paper(8, "wheels")
     forces = run.car_forces(3)
     assert forces["force_z"] == pytest.approx(run.wheel_forces[16:24, 1].sum(axis=0))
-    assert run.car_forces(3, static=False)["force_z"] == pytest.approx(forces["force_z"] + CAR.weight)
+    assert run.car_forces(3, static=False)["force_z"] == pytest.approx(
+        forces["force_z"] + CAR.weight
+    )
     centre = run.car_forces(3, at="centre")
-    assert centre["moment_x"] - forces["moment_x"] == pytest.approx(1.41 * forces["force_y"], abs=1e-6)
+    assert centre["moment_x"] - forces["moment_x"] == pytest.approx(
+        1.41 * forces["force_y"], abs=1e-6
+    )
     assert run.wheel_force(3, 2)["force_z"] == pytest.approx(run.wheel_forces[17, 1])
-    for wrong in (lambda: run.wheel_force(9, 1), lambda: run.car_forces(9), lambda: run.displacement(37.0)):
+    for wrong in (
+        lambda: run.wheel_force(9, 1),
+        lambda: run.car_forces(9),
+        lambda: run.displacement(37.0),
+    ):
         with pytest.raises(rb.InputError):
             wrong()
 
@@ -279,14 +376,20 @@ def test_the_default_run_up_is_long_enough(lead_in, speed):
     lead_in = lead_in and lead_in * speed / 20.0
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        rb.cross(rb.Train(CAR), DECK, WAVES, speed=speed, lead_in=lead_in, iterations=1, time_step=2e-3)
+        rb.cross(
+            rb.Train(CAR), DECK, WAVES, speed=speed, lead_in=lead_in, iterations=1, time_step=2e-3
+        )
 
 
 def test_a_short_run_up_on_level_track_bare_axles_or_a_table_is_no_matter():
     table = rb.Track(rb.Table([0.0, 10.0, 20.0], [0.0, 1e-3, 0.0]))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        for train, track in [(rb.Train(CAR), rb.Track()), (rb.AxleTrain([0.0], [1e5]), WAVES), (rb.Train(CAR), table)]:
+        for train, track in [
+            (rb.Train(CAR), rb.Track()),
+            (rb.AxleTrain([0.0], [1e5]), WAVES),
+            (rb.Train(CAR), table),
+        ]:
             rb.cross(train, DECK, track, speed=20.0, lead_in=1.0, iterations=1, time_step=2e-3)
         level = rb.Track(rb.Harmonic(0.0, wavelength=3.0))
         rb.cross(rb.Train(CAR), DECK, level, speed=20.0, lead_in=1.0, iterations=1, time_step=2e-3)
@@ -319,11 +422,13 @@ def test_self_weight_without_recovery_is_refused():
 
 
 def test_car_forces_at_a_centre_of_mass_off_the_middle():
-    """Newton and Euler of a rigid car on a rigid deck: the couples about its centre of mass are those of its own rotation."""
+    """Newton and Euler of a rigid car on a rigid deck: the couples about its centre of mass are
+    those of its own rotation."""
     x, y, z = 1.3, 0.2, 1.5
     body = Body("car", 3e4, (3e4, 3e5, 3e5), (x, y, z))
     springs = tuple(
-        Spring("car", "rail", (a, b, 0.0), (8e5, 1e6), (2e4, 3e4)) for a in (4.0, -3.0) for b in (1.0, -0.8)
+        Spring("car", "rail", (a, b, 0.0), (8e5, 1e6), (2e4, 3e4)) for a in (4.0,
+        -3.0) for b in (1.0, -0.8)
     )  # fmt: skip
     train = rb.Train(Vehicle("off centre", (body,), springs, 9.0))
     run = rb.cross(train, DECK, WAVES, speed=20.0, interaction="rigid", time_step=2e-3)
@@ -331,10 +436,14 @@ def test_car_forces_at_a_centre_of_mass_off_the_middle():
     # Pitch acceleration from the vertical ones above the foremost and rearmost springs.
     vertical = run.body_accelerations[0, :, 1]
     pitch = (vertical[0] - vertical[2]) / -7.0
-    assert centre["moment_y"] == pytest.approx(-3e5 * pitch, abs=1e-6 * np.abs(centre["moment_y"]).max())
+    assert centre["moment_y"] == pytest.approx(
+        -3e5 * pitch, abs=1e-6 * np.abs(centre["moment_y"]).max()
+    )
     lateral = run.body_accelerations[0, :, 0]
     yaw = (lateral[0] - lateral[2]) / 7.0
-    assert centre["moment_z"] == pytest.approx(-3e5 * yaw, abs=1e-6 * np.abs(centre["moment_z"]).max())
+    assert centre["moment_z"] == pytest.approx(
+        -3e5 * yaw, abs=1e-6 * np.abs(centre["moment_z"]).max()
+    )
     # Weight acts through the centre of mass: no couple about it at rest.
     whole = run.car_forces(at="centre")
     assert (whole["moment_x"] - centre["moment_x"])[0] == pytest.approx(0.0, abs=1.0)
@@ -346,5 +455,7 @@ def test_states_kept_from_the_iteration_are_those_of_its_passes():
     assert sorted(run.states) == [0, run.iterations - 1]
     for i in range(run.iterations + 1):
         expected = run.coupling.deck_state(run.coupling.station_loads(run.passes[i]))
-        assert np.array_equal(run.at(i).state.q, expected.q) and np.array_equal(run.at(i).state.velocity, expected.velocity)
+        assert np.array_equal(run.at(i).state.q, expected.q) and np.array_equal(
+            run.at(i).state.velocity, expected.velocity
+        )
     assert run.at(2).state is run.at(2).state

@@ -14,7 +14,9 @@ L, M, EI = 36.0, 12e3, 8.93e10
 
 
 def simple(damping=0.02, modes=12):
-    return rb.Beam("simple", (L,), M, EI, 8.9e11, 8.15e10, polar_inertia=7.02e4).deck(modes, damping)
+    return rb.Beam("simple", (L,), M, EI, 8.9e11, 8.15e10, polar_inertia=7.02e4).deck(
+        modes, damping
+    )
 
 
 def test_rayleigh_of_the_paper():
@@ -23,7 +25,9 @@ def test_rayleigh_of_the_paper():
     assert rb.rayleigh_ratio(alpha, beta, np.array([3.307, 16.30])) == pytest.approx([0.03, 0.03])
     least = np.sqrt(alpha / beta) / 2 / np.pi
     assert least == pytest.approx(7.34, abs=0.01)
-    assert rb.rayleigh_ratio(alpha, beta, np.array([least, 13.23, 1.389])) == pytest.approx([0.0225, 0.0265, 0.0615], abs=6e-5)
+    assert rb.rayleigh_ratio(alpha, beta, np.array([least, 13.23, 1.389])) == pytest.approx(
+        [0.0225, 0.0265, 0.0615], abs=6e-5
+    )
     critical = (1 + np.sqrt(1 - alpha * beta)) / beta / 2 / np.pi
     assert critical == pytest.approx(653, abs=1.0)
     assert rb.deck("viaduct36").damping_ratios[0] == pytest.approx(0.03, abs=1e-5)
@@ -60,14 +64,17 @@ def test_piecewise_cubic_derivatives(seed, at):
 
 
 def moving_force(t, speed, load, x, modes, ratio):
-    """Displacement and moment of a simple beam under a constant force, mode by mode in closed form (Fryba 1972)."""
+    """Displacement and moment of a simple beam under a constant force, mode by mode in closed form
+    (Fryba 1972)."""
     displacement, moment = np.zeros_like(t), np.zeros_like(t)
     for n in range(1, modes + 1):
         w = (n * np.pi / L) ** 2 * np.sqrt(EI / M)
         drive, damped = n * np.pi * speed / L, w * np.sqrt(1 - ratio**2)
         gain = -2 * load / M / L
         # Particular solution a sin + b cos, then the free part that starts from rest.
-        matrix = np.array([[w**2 - drive**2, -2 * ratio * w * drive], [2 * ratio * w * drive, w**2 - drive**2]])
+        matrix = np.array(
+            [[w**2 - drive**2, -2 * ratio * w * drive], [2 * ratio * w * drive, w**2 - drive**2]]
+        )
         a, b = np.linalg.solve(matrix, [gain, 0.0])
         c1, c2 = -b, -(a * drive + ratio * w * b) / damped
         q = a * np.sin(drive * t) + b * np.cos(drive * t)
@@ -81,7 +88,9 @@ def moving_force(t, speed, load, x, modes, ratio):
 @pytest.mark.parametrize("speed", [20.0, 60.0, 100.0])
 def test_one_moving_force_on_a_simple_beam(speed):
     ratio, load, x = 0.02, 2e5, 14.0
-    run = rb.cross(rb.AxleTrain([0.0], [load]), simple(ratio, 36), speed=speed, time_step=2e-4, tail=0.0)
+    run = rb.cross(
+        rb.AxleTrain([0.0], [load]), simple(ratio, 36), speed=speed, time_step=2e-4, tail=0.0
+    )
     t = run.time
     on = t < L / speed
     displacement, moment = moving_force(t, speed, load, x, 12, ratio)
@@ -89,7 +98,9 @@ def test_one_moving_force_on_a_simple_beam(speed):
     assert ours[on] == pytest.approx(displacement[on], abs=2e-4 * np.abs(displacement).max())
     # With the static correction few modes give the moment that takes the series hundreds.
     _, moment = moving_force(t, speed, load, x, 400, ratio)
-    few = rb.cross(rb.AxleTrain([0.0], [load]), simple(ratio, 36), speed=speed, time_step=2e-4, tail=0.0)
+    few = rb.cross(
+        rb.AxleTrain([0.0], [load]), simple(ratio, 36), speed=speed, time_step=2e-4, tail=0.0
+    )
     ours = few.section_forces(x=x)["moment_vertical"]
     assert ours[on] == pytest.approx(moment[on], abs=6e-3 * np.abs(moment).max())
 
@@ -111,21 +122,38 @@ def test_a_slowly_moving_force_gives_influence_lines():
     left, right = reactions[0.0], reactions[L]
     assert left["force_z"][on] == pytest.approx(load * (1 - place / L), abs=5e-3 * load)
     assert right["force_z"][on] == pytest.approx(load * place / L, abs=5e-3 * load)
-    assert left["moment_x"][on] == pytest.approx(2.4 * load * (1 - place / L), abs=5e-3 * 2.4 * load)
+    assert left["moment_x"][on] == pytest.approx(
+        2.4 * load * (1 - place / L), abs=5e-3 * 2.4 * load
+    )
     assert (left["force_z"] + right["force_z"])[on] == pytest.approx(load, rel=5e-3)
 
 
 def test_couples_of_condensed_loads_do_work_on_slopes():
-    """A slow condensed car: moment lines of the resultant and of its couples, from the influence line's slope."""
+    """A slow condensed car: moment lines of the resultant and of its couples, from the influence
+    line's slope."""
     car = rb.vehicle("xia2000")
     body = car.bodies[0]
     heavy_nose = rb.Vehicle(
-        "nose", (rb.Body(body.name, body.mass, body.inertia, (2.0, 0.0, 1.41)), *car.bodies[1:]), car.springs, 22.5
+        "nose",
+        (rb.Body(body.name, body.mass, body.inertia, (2.0, 0.0, 1.41)), *car.bodies[1:]),
+        car.springs,
+        22.5,
     )
-    run = rb.cross(rb.Train(heavy_nose), simple(0.3, 9), speed=2.0, time_step=0.02, loads="condensed", tail=0.0, iterations=2)
+    run = rb.cross(
+        rb.Train(heavy_nose),
+        simple(0.3, 9),
+        speed=2.0,
+        time_step=0.02,
+        loads="condensed",
+        tail=0.0,
+        iterations=2,
+    )
     place = 2.0 * run.time - 9.05
     on = (place > 4.0) & (place < 17.0)
-    weight, couple = heavy_nose.weight, 2.0 * body.mass * 9.81  # about y at the middle: the load stands 2 m ahead
+    weight, couple = (
+        heavy_nose.weight,
+        2.0 * body.mass * 9.81,
+    )  # about y at the middle: the load stands 2 m ahead
     reaction = run.reactions()[L]["force_z"][on]
     assert reaction == pytest.approx((weight * place[on] + couple) / L, rel=4e-2)
 
@@ -137,11 +165,20 @@ def test_loads_add_up(offset, seed):
     rng = np.random.default_rng(seed)
     loads = rng.uniform(5e4, 2e5, 3)
     axles = [0.0, 4.0, 10.0]
-    together = rb.cross(rb.AxleTrain(axles, loads), DECK, speed=40.0, time_step=1e-3, track_offset=offset)
+    together = rb.cross(
+        rb.AxleTrain(axles, loads), DECK, speed=40.0, time_step=1e-3, track_offset=offset
+    )
     y = together.displacement(x=13.0)
     total = {k: np.zeros_like(v) for k, v in y.values.items()}
     for axle, load in zip(axles, loads, strict=True):
-        single = rb.cross(rb.AxleTrain([0.0], [load]), DECK, speed=40.0, time_step=1e-3, track_offset=offset, tail=1.5)
+        single = rb.cross(
+            rb.AxleTrain([0.0], [load]),
+            DECK,
+            speed=40.0,
+            time_step=1e-3,
+            track_offset=offset,
+            tail=1.5,
+        )
         late = round(axle / 40.0 / 1e-3)
         for k, v in single.displacement(x=13.0).values.items():
             total[k][late:] += v[: len(total[k]) - late]
@@ -188,7 +225,9 @@ def test_a_deck_is_made_once_so_its_numbers_cannot_be_changed():
     deck = rb.case("paper").deck
     with pytest.raises(ValueError, match="read-only"):
         deck.frequencies_hz[0] = 1.0
-    assert deck == rb.case("paper").deck and deck != rb.deck("viaduct36")  # the same one, or another; never an error
+    assert deck == rb.case("paper").deck and deck != rb.deck(
+        "viaduct36"
+    )  # the same one, or another; never an error
 
 
 # ---- rails above the deck axis
@@ -196,18 +235,24 @@ def test_a_deck_is_made_once_so_its_numbers_cannot_be_changed():
 
 def high(height, modes=14):
     """The shipped deck's beam with its rails at a height."""
-    return rb.Beam("b", (L,), M, EI, 8.9e11, 8.15e10, polar_inertia=7.02e4).deck(modes, 0.02, track_height=height)
+    return rb.Beam("b", (L,), M, EI, 8.9e11, 8.15e10, polar_inertia=7.02e4).deck(
+        modes, 0.02, track_height=height
+    )
 
 
 @pytest.mark.parametrize("loads", ["wheels", "bogies", "condensed"])
 def test_the_rail_s_motion_and_the_loads_do_the_same_work(loads):
-    """Power balance: what wheels do on the rail's motion is what modal forces do on the modes, whatever the height.
+    """Power balance: what wheels do on the rail's motion is what modal forces do on the modes,
+    whatever the height.
 
-    On the rail, v - h theta and w + y theta, from the shapes themselves; condensed loads do it on the motion at their own point.
+    On the rail, v - h theta and w + y theta, from the shapes themselves; condensed loads do it on
+    the motion at their own point.
     """
     rng = np.random.default_rng(4)
     train, deck, offset, speed = rb.Train(rb.vehicle("xia2000")), high(1.7), 2.4, 25.0
-    s = check(train, deck, rb.Track(), speed=speed, time_step=2e-3, track_offset=offset, loads=loads)
+    s = check(
+        train, deck, rb.Track(), speed=speed, time_step=2e-3, track_offset=offset, loads=loads
+    )
     coupling = prepare(train, deck, rb.Track(), s)
     window = coupling.cars[0].window
     delta = [rng.normal(size=d.shape) * 1e4 for d in coupling.nothing_added()]
@@ -248,7 +293,7 @@ def test_wheels_feel_the_rail_and_not_the_axis():
 
 
 def test_a_lateral_force_on_high_rails_twists_the_deck_by_the_lever():
-    """The torque is the car's rolling less h F_y; iterated and direct solutions agree on the twist."""
+    """The torque is the car's rolling less h F_y; both solutions agree on the twist."""
     train = rb.Train(rb.vehicle("xia2000"))
     track = rb.Track(lateral=rb.Harmonic(3e-3, wavelength=20.0))
     common = {"speed": 30.0, "time_step": 1e-3, "lead_in": 60.0, "tail": 0.2}
@@ -257,8 +302,11 @@ def test_a_lateral_force_on_high_rails_twists_the_deck_by_the_lever():
         direct = rb.cross(train, high(1.7), track, interaction="direct", **common)
         level = rb.cross(train, high(0.0), track, tolerance=1e-10, **common)
     twist = iterated.displacement(L / 2)["rotation_x"]
-    assert direct.displacement(L / 2)["rotation_x"] == pytest.approx(twist, abs=1e-7 * np.abs(twist).max())
-    # On the axis only the car's rolling twists the deck; on high rails the lateral forces add -h F_y.
+    assert direct.displacement(L / 2)["rotation_x"] == pytest.approx(
+        twist, abs=1e-7 * np.abs(twist).max()
+    )
+    # On the axis only the car's rolling twists the deck; on high rails the lateral forces add -h
+    # F_y.
     moment, without = iterated.reactions(), level.reactions()
     forces = iterated.wheel_forces[:, 0]
     on = (iterated.time > 0.8) & (iterated.time < 1.0)  # the whole car stands on the deck
@@ -266,4 +314,6 @@ def test_a_lateral_force_on_high_rails_twists_the_deck_by_the_lever():
     roll = sum(f * w.y for f, w in zip(iterated.wheel_forces[:, 1], train.wheels, strict=True))[on]
     quasi = -(roll - 1.7 * forces.sum(axis=0)[on])
     assert np.abs(torque - quasi).max() < 0.1 * np.abs(quasi).max()  # less the deck's own inertia
-    assert np.abs(torque).max() > 1.3 * np.abs(sum(h["moment_x"] for h in without.values())[on]).max()
+    assert (
+        np.abs(torque).max() > 1.3 * np.abs(sum(h["moment_x"] for h in without.values())[on]).max()
+    )

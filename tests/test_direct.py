@@ -1,10 +1,11 @@
-"""Train and deck solved together: the limit of the fixed point, and the coupled differential equations."""
+"""Train and deck solved together: the limit of the fixed point, and the coupled differential
+equations."""
 
 import numpy as np
 import pytest
+from reference import one_planar_car
 
 import railbridge as rb
-from reference import one_planar_car
 
 WAVES = {"vertical": {"kind": "harmonic", "amplitude": 5e-3, "wavelength": 14.4}}
 PAPER = rb.case("paper").replace({"run.loads": "wheels", "run.tolerance": 1e-10, "train.cars": 1})
@@ -37,29 +38,37 @@ def reference():
     return one_planar_car(20.0, VERTICAL, case.run().time, 5e-3, 14.4)
 
 
-@pytest.mark.parametrize("changes", [{}, {"train.cars": 2}, {"run.speed": 60.0}, {"run.lead_in": 0.0}])
+@pytest.mark.parametrize(
+    "changes", [{}, {"train.cars": 2}, {"run.speed": 60.0}, {"run.lead_in": 0.0}]
+)
 def test_direct_is_the_limit_of_the_fixed_point(changes):
     case = PAPER.replace({"run.time_step": 2e-3, **changes})
     together = case.replace({"run.interaction": "direct"}).run()
     iterated = case.run()
     assert iterated.converged
-    forces, dynamic = together.wheel_forces, together.wheel_forces - together.wheel_forces.mean(axis=2, keepdims=True)
+    forces, dynamic = (
+        together.wheel_forces,
+        together.wheel_forces - together.wheel_forces.mean(axis=2, keepdims=True),
+    )
     assert np.max(np.abs(forces - iterated.wheel_forces)) < 1e-8 * np.max(np.abs(dynamic))
-    assert np.max(np.abs(mid_span(together) - mid_span(iterated))) < 1e-8 * np.max(np.abs(mid_span(iterated)))
+    assert np.max(np.abs(mid_span(together) - mid_span(iterated))) < 1e-8 * np.max(
+        np.abs(mid_span(iterated))
+    )
 
 
 def test_direct_solves_the_coupled_equations(reference):
     run = PLANE.replace({"run.interaction": "direct"}).run()
     middle, exerted = reference
     assert error(run, middle) < 1e-5
-    # Where an axle meets the end of the deck its force jumps; two samples there belong to either side.
+    # Where an axle meets the end of the deck its force jumps; two samples there belong to either
+    # side.
     calm = np.ones(len(run.time), dtype=bool)
     for wheel in run.train.wheels:
         for event in (wheel.delay / 20.0, (wheel.delay + 36.0) / 20.0):
             calm &= np.abs(run.time - event) > 2.5e-3
     difference = (run.wheel_forces[:, 1] - exerted)[:, calm]
-    # The waves start with a break at the entrance: the damper's jump of 1.3 kN falls half a sample early or late, which
-    # shakes the bogie by some 30 N. Everything else is smaller.
+    # The waves start with a break at the entrance: the damper's jump of 1.3 kN falls half a sample
+    # early or late, which shakes the bogie by some 30 N. Everything else is smaller.
     dynamic = np.max(np.abs(exerted + PLANE.train.wheels[0].static_load))
     assert np.max(np.abs(difference)) < 2.5e-3 * dynamic
     assert np.sqrt(np.mean(difference**2)) < 5e-4 * dynamic
@@ -86,14 +95,17 @@ def test_displacement_converges_with_the_square_of_the_step():
 
 
 def test_the_climb_along_the_deflected_deck_is_there():
-    """At 90 m/s the reference without the convective term differs by far more than the method's own error."""
+    """At 90 m/s the reference without the convective term differs by far more than the method's own
+    error."""
     run = PLANE.replace({"run.speed": 90.0, "run.interaction": "direct"}).run()
     middle, exerted = one_planar_car(90.0, VERTICAL, run.time, 5e-3, 14.4)
     without = one_planar_car(90.0, VERTICAL, run.time, 5e-3, 14.4, climb=False)[0]
     assert np.max(np.abs(without - middle)) > 20 * np.max(np.abs(mid_span(run) - middle))
 
 
-@pytest.mark.parametrize(("key", "value"), [("loads", "condensed"), ("loads", "bogies"), ("feedback", "vertical")])
+@pytest.mark.parametrize(
+    ("key", "value"), [("loads", "condensed"), ("loads", "bogies"), ("feedback", "vertical")]
+)
 def test_direct_refuses_what_it_cannot_couple(key, value):
     with pytest.raises(rb.InputError, match=f"run.{key} = '{value}'"):
         PAPER.replace({"run.interaction": "direct", f"run.{key}": value})

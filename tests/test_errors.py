@@ -13,8 +13,15 @@ from railbridge.errors import InputError, Range
 def test_a_message_names_field_value_range_and_remedy():
     with pytest.raises(InputError) as error:
         errors.number("run.speed", -3.0, above=0.0, most=200.0, unit="m/s", remedy="Give it in m/s")
-    assert str(error.value) == "run.speed = -3.0: must be a finite number above 0 and at most 200 m/s. Give it in m/s."
-    assert (error.value.field, error.value.value, error.value.remedy) == ("run.speed", -3.0, "Give it in m/s")
+    assert (
+        str(error.value)
+        == "run.speed = -3.0: must be a finite number above 0 and at most 200 m/s. Give it in m/s."
+    )
+    assert (error.value.field, error.value.value, error.value.remedy) == (
+        "run.speed",
+        -3.0,
+        "Give it in m/s",
+    )
 
 
 @pytest.mark.parametrize("good", [3, 3.0, np.float32(3), np.int64(3), np.float64(3)])
@@ -24,7 +31,24 @@ def test_numbers_of_any_kind(good):
 
 
 @pytest.mark.parametrize(
-    "bad", [None, True, np.True_, "3", b"3", 3j, [3], np.array([3.0]), np.nan, np.inf, -np.inf, 1e300, 10**400, {}, object()]
+    "bad",
+    [
+        None,
+        True,
+        np.True_,
+        "3",
+        b"3",
+        3j,
+        [3],
+        np.array([3.0]),
+        np.nan,
+        np.inf,
+        -np.inf,
+        1e300,
+        10**400,
+        {},
+        object(),
+    ],
 )
 def test_what_is_no_number(bad):
     for check in (errors.number, errors.integer):
@@ -71,15 +95,23 @@ def test_plain_turns_numpy_into_python_and_refuses_the_rest():
 
 
 def test_within_says_where_a_field_stands_and_what_the_user_calls_it():
-    with pytest.raises(InputError) as error, errors.within("deck", {"bearings": "bearing"}, source="my.toml"):
-        with errors.within("bearings[2]"):
-            errors.number("x", "far")
+    with (
+        pytest.raises(InputError) as error,
+        errors.within("deck", {"bearings": "bearing"}, source="my.toml"),
+        errors.within("bearings[2]"),
+    ):
+        errors.number("x", "far")
     assert error.value.field == "deck.bearing[2].x"
-    assert str(error.value).startswith("my.toml: deck.bearing[2].x = 'far': must be a finite number")
+    assert str(error.value).startswith(
+        "my.toml: deck.bearing[2].x = 'far': must be a finite number"
+    )
 
 
 def test_what_is_refused_inside_a_file_is_found_by_that_file_s_name():
-    with pytest.raises(InputError) as error, errors.within("deck", {"x": "place"}, source="my.toml"):
+    with (
+        pytest.raises(InputError) as error,
+        errors.within("deck", {"x": "place"}, source="my.toml"),
+    ):
         raise InputError("x", "far", "must be a number", source="modes.csv")
     assert (error.value.source, error.value.field) == ("modes.csv", "x")
     assert str(error.value) == "modes.csv: x = 'far': must be a number."

@@ -1,4 +1,5 @@
-"""What must hold whatever the numbers are: order, energy, equilibrium, linearity, symmetry, and the limits."""
+"""What must hold whatever the numbers are: order, energy, equilibrium, linearity, symmetry, and the
+limits."""
 
 from dataclasses import dataclass
 
@@ -13,7 +14,8 @@ from railbridge.coupling import DeckState
 
 
 def few(examples):
-    """Few examples, and a failing one is shown as it is: each costs seconds, and making it smaller would cost minutes."""
+    """Few examples, and a failing one is shown as it is: each costs seconds, and making it smaller
+    would cost minutes."""
     return settings(max_examples=examples, phases=(Phase.explicit, Phase.generate))
 
 
@@ -23,7 +25,8 @@ PLANE_CAR = rb.planar_car(CAR)
 
 @st.composite
 def spans(draw, damped=True):
-    """A sane simple span: 15 to 40 m, 5 to 15 t/m, first frequency 80 m/s over its length or so, as bridges have."""
+    """A sane simple span: 15 to 40 m, 5 to 15 t/m, first frequency 80 m/s over its length or so, as
+    bridges have."""
     length = draw(st.floats(15.0, 40.0))
     mass = draw(st.floats(5e3, 15e3))
     frequency = draw(st.floats(60.0, 130.0)) / length
@@ -69,27 +72,41 @@ def middle(run):
 
 
 def cross(train, deck, track=None, **options):
-    return rb.cross(train, deck, track, **{"lead_in": 0.0, "tail": 0.0, "tolerance": 1e-12, **options})
+    return rb.cross(
+        train, deck, track, **{"lead_in": 0.0, "tail": 0.0, "tolerance": 1e-12, **options}
+    )
 
 
 # Order of convergence
 
 
 def order(steps, histories, reach=slice(None)):
-    """Least-squares order from the differences between neighbouring halvings, at the coarsest step's samples."""
+    """Least-squares order from the differences between neighbouring halvings, at the coarsest
+    step's samples."""
     common = [h[:: 2**i][reach] for i, h in enumerate(histories)]
     count = min(map(len, common))
-    errors = [np.abs(a[:count] - b[:count]).max() for a, b in zip(common[:-1], common[1:], strict=True)]
+    errors = [
+        np.abs(a[:count] - b[:count]).max() for a, b in zip(common[:-1], common[1:], strict=True)
+    ]
     return np.polyfit(np.log(steps[: len(errors)]), np.log(errors), 1)[0], errors
 
 
 @few(6)
-@given(span=spans(), mass=sprung_masses(), wave=waves, speed=speeds, loads=st.sampled_from(["wheels", "bogies"]))
-def test_displacement_and_force_converge_with_the_square_of_the_step(span, mass, wave, speed, loads):
+@given(
+    span=spans(),
+    mass=sprung_masses(),
+    wave=waves,
+    speed=speeds,
+    loads=st.sampled_from(["wheels", "bogies"]),
+)
+def test_displacement_and_force_converge_with_the_square_of_the_step(
+    span, mass, wave, speed, loads
+):
     """Five halvings, so that four differences fall by four each time.
 
-    The steps divide the time on the deck. The waves break at the entrance, where the damper's force jumps, and again the
-    deck's slope breaks at its end: both samples are left out of the forces' order (DESIGN 5.6).
+    The steps divide the time on the deck. The waves break at the entrance, where the damper's force
+    jumps, and again the deck's slope breaks at its end: both samples are left out of the forces'
+    order (DESIGN 5.6).
     """
     deck, train = plane_deck(span), rb.Train(rb.sprung_mass("mass", *mass))
     coarse = deck.length / speed / 128
@@ -107,12 +124,15 @@ def test_displacement_and_force_converge_with_the_square_of_the_step(span, mass,
 def test_a_car_converges_though_its_axles_meet_the_deck_between_samples(span, swell, speed):
     """Faster than the step, not quite with its square.
 
-    Where an axle meets the end of a bent deck its damper feels a jump, c V w', which samples place up to one step wrong: a small
-    remainder that goes with the step itself. At two hundred samples a crossing it is some ten-thousandths.
+    Where an axle meets the end of a bent deck its damper feels a jump, c V w', which samples place
+    up to one step wrong: a small remainder that goes with the step itself. At two hundred samples a
+    crossing it is some ten-thousandths.
     """
     deck, train = plane_deck(span), rb.Train(PLANE_CAR)
     steps = min(deck.length / 50, swell.shortest / 12) / speed / 2.0 ** np.arange(6)
-    runs = [cross(train, deck, rb.Track(vertical=swell), speed=speed, time_step=float(h)) for h in steps]
+    runs = [
+        cross(train, deck, rb.Track(vertical=swell), speed=speed, time_step=float(h)) for h in steps
+    ]
     found, errors = order(steps, [middle(r) for r in runs])
     assert 1.4 < found < 2.5, errors
     assert errors[2] < 4e-4 * np.abs(middle(runs[-1])).max()
@@ -128,7 +148,10 @@ def test_elements_converge_with_their_fourth_power(span, speed):
     slopes = np.polyfit(np.log(count), np.log(found / exact - 1), 1)[0]
     assert slopes == pytest.approx([-4, -4], abs=0.15)
     train = rb.AxleTrain([0.0, 3.0], [1e5, 1e5])
-    runs = [cross(train, plane_deck(span, 2, int(c)), speed=speed, time_step=length / speed / 400) for c in [*count, 64]]
+    runs = [
+        cross(train, plane_deck(span, 2, int(c)), speed=speed, time_step=length / speed / 400)
+        for c in [*count, 64]
+    ]
     errors = [np.abs(middle(r) - middle(runs[-1])).max() for r in runs[:-1]]
     assert all(a > 10 * b for a, b in zip(errors[:-1], errors[1:], strict=True)), errors
 
@@ -138,7 +161,14 @@ def test_elements_converge_with_their_fourth_power(span, speed):
 def test_displacement_and_moment_converge_with_modes(span, mass, speed):
     train = rb.Train(rb.sprung_mass("mass", *mass))
     runs = [
-        cross(train, plane_deck(span, n, 40), speed=speed, time_step=span[0] / speed / 400, tolerance=1e-9) for n in (2, 4, 8, 16)
+        cross(
+            train,
+            plane_deck(span, n, 40),
+            speed=speed,
+            time_step=span[0] / speed / 400,
+            tolerance=1e-9,
+        )
+        for n in (2, 4, 8, 16)
     ]
     x = 0.4 * span[0]
     shown = [
@@ -146,7 +176,9 @@ def test_displacement_and_moment_converge_with_modes(span, mass, speed):
         [r.section_forces(x)["moment_vertical"] for r in runs],
     ]
     for histories, needed in zip(shown, (3e-4, 1e-2), strict=True):
-        errors = [np.abs(h - histories[-1]).max() / np.abs(histories[-1]).max() for h in histories[:-1]]
+        errors = [
+            np.abs(h - histories[-1]).max() / np.abs(histories[-1]).max() for h in histories[:-1]
+        ]
         assert errors[0] > errors[1] > errors[2] and errors[2] < needed, errors
 
 
@@ -161,17 +193,22 @@ def test_displacement_and_moment_converge_with_modes(span, mass, speed):
     speed=speeds,
     interaction=st.sampled_from(["iterate", "direct"]),
 )
-def test_energy_of_an_undamped_crossing_is_what_the_traction_gives(span, mass, wave, speed, interaction):
+def test_energy_of_an_undamped_crossing_is_what_the_traction_gives(
+    span, mass, wave, speed, interaction
+):
     r"""The energy of mass, spring and deck grows by the work of what pulls the train along.
 
-    The contact moves up with u' = w_t + V w' + V r', the deck under it with w_t alone. The contact force F (on the deck, up)
-    gives the deck the power F w_t and the mass and spring -F u', so that together they receive -F V (w' + r'): where the
-    wheel climbs (w' + r' > 0) the contact pushes it back with -F (w' + r'), and the traction, which keeps V, does that work.
-    With F = D - W, D the dynamic part and W the weight, the energy is, counted from rest,
+    The contact moves up with u' = w_t + V w' + V r', the deck under it with w_t alone. The contact
+    force F (on the deck, up) gives the deck the power F w_t and the mass and spring -F u', so that
+    together they receive -F V (w' + r'): where the wheel climbs (w' + r' > 0) the contact pushes it
+    back with -F (w' + r'), and the traction, which keeps V, does that work. With F = D - W, D the
+    dynamic part and W the weight, the energy is, counted from rest,
 
-        E = sum (q'^2 + omega^2 q^2) / 2 + m z'^2 / 2 + D^2 / (2 k) + W u,        z' = -int D / m dt.
+        E = sum (q'^2 + omega^2 q^2) / 2 + m z'^2 / 2 + D^2 / (2 k) + W u,        z' = -int D / m
+        dt.
 
-    The last term is weight lifted: the spring carries W from the start. Sideways the same holds without weight, with v for w.
+    The last term is weight lifted: the spring carries W from the start. Sideways the same holds
+    without weight, with v for w.
     """
     m, k, _ = mass
     length, per_metre, bending, _ = span
@@ -197,11 +234,15 @@ def test_energy_of_an_undamped_crossing_is_what_the_traction_gives(span, mass, w
     motion = -cumulative_simpson(dynamic / m, x=t, initial=0.0)
     of_mass = m * motion**2 / 2 + dynamic**2 / (2 * springs[:, None]) + weight * u
     energy = np.sum(rate**2 + omega**2 * q**2, axis=0) / 2 + of_mass.sum(axis=0)
-    # The deck's slope ends with the deck: the work up to there and from there on is integrated apart.
+    # The deck's slope ends with the deck: the work up to there and from there on is integrated
+    # apart.
     end = int(np.argmax(x > deck.length * (1 + 1e-9)))
     power, power_of_waves = (-speed * np.sum(force * s, axis=0) for s in (climb, waves_slope))
     work = cumulative_simpson(power[:end], x=t[:end], initial=0.0)
-    work = np.append(work, work[-1] + cumulative_simpson(power_of_waves[end - 1 :], x=t[end - 1 :], initial=0.0)[1:])
+    work = np.append(
+        work,
+        work[-1] + cumulative_simpson(power_of_waves[end - 1 :], x=t[end - 1 :], initial=0.0)[1:],
+    )
     assert np.abs(energy - work).max() < 2e-5 * np.abs(energy).max()
     # Without the deck's slope in it, the balance is far off, measured by the deck's own energy.
     deck_energy = np.sum(rate**2 + omega**2 * q**2, axis=0)[:end].max() / 2
@@ -213,7 +254,8 @@ def test_energy_of_an_undamped_crossing_is_what_the_traction_gives(span, mass, w
 
 
 def add_load(total, place, mesh, x, force, couple):
-    """Add the consistent nodal load of a vertical force and a twisting couple at x; `place` orders the freedoms."""
+    """Add the consistent nodal load of a vertical force and a twisting couple at x; `place` orders
+    the freedoms."""
     e = min(int(np.searchsorted(mesh.nodes, x, side="right")) - 1, len(mesh.h) - 1)
     powers = ((x - mesh.nodes[e]) / mesh.h[e]) ** np.arange(4)
     for name, value in (("vertical", force), ("torsion", couple)):
@@ -228,26 +270,46 @@ def add_load(total, place, mesh, x, force, couple):
     loads=st.lists(st.floats(5e4, 2e5), min_size=2, max_size=2),
 )
 def test_reactions_are_those_of_the_unreduced_model_under_newmark(lengths, speed, offset, loads):
-    """Every freedom of the mesh, stepped by average acceleration, and what is missing at a held freedom.
+    """Every freedom of the mesh, stepped by average acceleration, and what is missing at a held
+    freedom.
 
-    R = (K d + M (d'' + alpha d') - f) there; the stiffness-proportional part of the damping is left out, since section forces
-    and reactions are the elastic ones. They differ where an axle steps on or off: the mesh and 30 modes ring each in its own way
-    for some milliseconds, a few percent of the axle at most, much less on the whole.
+    R = (K d + M (d'' + alpha d') - f) there; the stiffness-proportional part of the damping is left
+    out, since section forces and reactions are the elastic ones. They differ where an axle steps on
+    or off: the mesh and 30 modes ring each in its own way for some milliseconds, a few percent of
+    the axle at most, much less on the whole.
     """
     alpha, beta = rb.rayleigh(0.03, (4.0, 40.0))
-    beam = rb.Beam("span", lengths, 9e3, 4e10, torsional_stiffness=4e10, polar_inertia=5e4, elements=16 * len(lengths))
+    beam = rb.Beam(
+        "span",
+        lengths,
+        9e3,
+        4e10,
+        torsional_stiffness=4e10,
+        polar_inertia=5e4,
+        elements=16 * len(lengths),
+    )
     deck = beam.deck(30, (alpha, beta))
     length, step = deck.length, 1e-3
     run = cross(
-        rb.AxleTrain([0.0, 2.5], loads), deck, speed=speed, track_offset=offset, interaction="rigid", time_step=step, tail=0.1
+        rb.AxleTrain([0.0, 2.5], loads),
+        deck,
+        speed=speed,
+        track_offset=offset,
+        interaction="rigid",
+        time_step=step,
+        tail=0.1,
     )
     mesh, size = beam.mesh, beam.mesh.size
     held = [6 * mesh.node(s) + place for s in deck.supports for place in (2, 3)]
     # Only freedoms that move vertically or twist, the held ones last.
-    free = np.setdiff1d(np.concatenate([mesh.freedoms[f].ravel() for f in ("vertical", "torsion")]), held)
+    free = np.setdiff1d(
+        np.concatenate([mesh.freedoms[f].ravel() for f in ("vertical", "torsion")]), held
+    )
     k, m = (a[np.ix_([*free, *held], [*free, *held])].toarray() for a in mesh.matrices)
     n_free = len(free)
-    inverse = np.linalg.inv(((1 + alpha * step / 2) * m + (beta * step / 2 + step**2 / 4) * k)[:n_free, :n_free])
+    inverse = np.linalg.inv(
+        ((1 + alpha * step / 2) * m + (beta * step / 2 + step**2 / 4) * k)[:n_free, :n_free]
+    )
     damping = alpha * m + beta * k
     inner, rows = slice(n_free), slice(n_free, None)
     place = np.full(size, -1)
@@ -260,10 +322,17 @@ def test_reactions_are_those_of_the_unreduced_model_under_newmark(lengths, speed
             if 0.0 <= speed * t - delay <= length:
                 add_load(load, place, mesh, speed * t - delay, -p, -p * offset)
         if n > 0:
-            guess, guess_rate = d + step * rate + step**2 / 4 * acceleration, rate + step / 2 * acceleration
-            acceleration = inverse @ (load[inner] - damping[inner, inner] @ guess_rate - k[inner, inner] @ guess)
+            guess, guess_rate = (
+                d + step * rate + step**2 / 4 * acceleration,
+                rate + step / 2 * acceleration,
+            )
+            acceleration = inverse @ (
+                load[inner] - damping[inner, inner] @ guess_rate - k[inner, inner] @ guess
+            )
             d, rate = guess + step**2 / 4 * acceleration, guess_rate + step / 2 * acceleration
-        theirs[:, n] = k[rows, inner] @ d + m[rows, inner] @ (acceleration + alpha * rate) - load[rows]
+        theirs[:, n] = (
+            k[rows, inner] @ d + m[rows, inner] @ (acceleration + alpha * rate) - load[rows]
+        )
     theirs = dict(zip(deck.supports, theirs.reshape(-1, 2, len(run.time)), strict=True))
     for s, history in run.reactions().items():
         limits = [("force_z", 1.0, 2.5e-2, 5e-3), ("moment_x", max(abs(offset), 0.1), 6e-2, 6e-3)]
@@ -276,17 +345,38 @@ def test_reactions_are_those_of_the_unreduced_model_under_newmark(lengths, speed
 
 
 @few(6)
-@given(span=spans(), speed=speeds, first=st.floats(5e4, 2e5), second=st.floats(5e4, 2e5), apart=st.integers(20, 200))
+@given(
+    span=spans(),
+    speed=speeds,
+    first=st.floats(5e4, 2e5),
+    second=st.floats(5e4, 2e5),
+    apart=st.integers(20, 200),
+)
 def test_two_trains_of_axles_superpose(span, speed, first, second, apart):
     deck, step = plane_deck(span), span[0] / speed / 200
     gap = apart * speed * step
 
     def run(axles, loads):
-        return cross(rb.AxleTrain(axles, loads), deck, speed=speed, interaction="rigid", time_step=step, tail=3.0)
+        return cross(
+            rb.AxleTrain(axles, loads),
+            deck,
+            speed=speed,
+            interaction="rigid",
+            time_step=step,
+            tail=3.0,
+        )
 
-    ahead, behind, both = run([0.0], [first]), run([0.0], [second]), run([0.0, gap], [first, second])
+    ahead, behind, both = (
+        run([0.0], [first]),
+        run([0.0], [second]),
+        run([0.0, gap], [first, second]),
+    )
     count = len(ahead.time)
-    for values in (middle, lambda r: r.section_forces(span[0] / 3)["moment_vertical"], lambda r: r.reactions()[0.0]["force_z"]):
+    for values in (
+        middle,
+        lambda r: r.section_forces(span[0] / 3)["moment_vertical"],
+        lambda r: r.reactions()[0.0]["force_z"],
+    ):
         total = values(ahead).copy()
         total[apart:] += values(behind)[: count - apart]
         assert values(both)[:count] == pytest.approx(total, abs=1e-9 * np.abs(total).max())
@@ -312,23 +402,38 @@ def test_response_is_affine_in_the_irregularity(span, swell, speed, factor):
 
 
 @few(3)
-@given(offset=st.floats(0.5, 3.0), vertical=waves, lateral=waves, speed=speeds, loads=st.sampled_from(["wheels", "condensed"]))
+@given(
+    offset=st.floats(0.5, 3.0),
+    vertical=waves,
+    lateral=waves,
+    speed=speeds,
+    loads=st.sampled_from(["wheels", "condensed"]),
+)
 def test_a_train_on_the_other_track_gives_the_mirror_image(offset, vertical, lateral, speed, loads):
     deck, train = rb.deck("viaduct36"), rb.Train(CAR)
 
     def run(sign):
-        high = rb.Harmonic(vertical.amplitude, vertical.wavelength), rb.Harmonic(0.5 * vertical.amplitude, 11.0)
+        high = (
+            rb.Harmonic(vertical.amplitude, vertical.wavelength),
+            rb.Harmonic(0.5 * vertical.amplitude, 11.0),
+        )
         side = rb.Harmonic(lateral.amplitude, lateral.wavelength, phase=0.0 if sign > 0 else np.pi)
         track = rb.Track(vertical=rb.Rails(*high[::sign]), lateral=side)
         return cross(
-            train, deck, track, speed=speed, loads=loads, track_offset=sign * offset, time_step=0.04 / speed,
+            train, deck, track, speed=speed, loads=loads, track_offset=sign * offset,
+            time_step=0.04 / speed,
             tolerance=1e-10,
         )  # fmt: skip
 
     left, right = run(1), run(-1)
     same, opposite = (1.0, 1e-8), (-1.0, 1e-8)
     signs = {"displacement_y": opposite, "displacement_z": same, "rotation_x": opposite}
-    signs |= {"moment_vertical": same, "moment_lateral": opposite, "torsion": opposite, "shear_vertical": same}
+    signs |= {
+        "moment_vertical": same,
+        "moment_lateral": opposite,
+        "torsion": opposite,
+        "shear_vertical": same,
+    }
     for x in (9.0, 18.0):
         for histories in (lambda r, x=x: r.displacement(x), lambda r, x=x: r.section_forces(x)):
             a, b = histories(left), histories(right)
@@ -337,7 +442,10 @@ def test_a_train_on_the_other_track_gives_the_mirror_image(offset, vertical, lat
                 assert np.abs(a[name] - sign * b[name]).max() <= limit * np.abs(a[name]).max(), name
     # Left and right wheels of an axle change places, lateral forces their sign.
     swapped = right.wheel_forces.reshape(4, 2, 2, -1)[:, ::-1] * np.array([-1.0, 1.0])[:, None]
-    assert np.abs(left.wheel_forces - swapped.reshape(8, 2, -1)).max() < 1e-8 * np.abs(left.wheel_forces).max()
+    assert (
+        np.abs(left.wheel_forces - swapped.reshape(8, 2, -1)).max()
+        < 1e-8 * np.abs(left.wheel_forces).max()
+    )
 
 
 # Limits
@@ -346,7 +454,8 @@ def test_a_train_on_the_other_track_gives_the_mirror_image(offset, vertical, lat
 @few(6)
 @given(span=spans(), place=st.floats(0.1, 0.9), part=st.floats(0.1, 0.9))
 def test_infinitely_slow_crossing_gives_the_influence_lines(span, place, part):
-    """At a micrometre a second: moment, shear and reactions to 1e-8, the displacement up to the modes left out."""
+    """At a micrometre a second: moment, shear and reactions to 1e-8, the displacement up to the
+    modes left out."""
     deck, train = plane_deck(span, 12), rb.Train(PLANE_CAR)
     run = cross(train, deck, speed=1e-6, time_step=2e4, tolerance=1e-9)
     n = int(place * len(run.time))
@@ -359,9 +468,15 @@ def test_infinitely_slow_crossing_gives_the_influence_lines(span, place, part):
     def lever(x, at):
         return np.where(x <= at, x * (deck.length - at), at * (deck.length - x)) / deck.length
 
-    assert run.section_forces(at)["moment_vertical"][n] == pytest.approx(-load * lever(x, at).sum(), rel=1e-8)
-    assert run.reactions()[0.0]["force_z"][n] == pytest.approx(load * (1 - x / deck.length).sum(), rel=1e-8)
-    assert run.reactions()[deck.length]["force_z"][n] == pytest.approx(load * (x / deck.length).sum(), rel=1e-8)
+    assert run.section_forces(at)["moment_vertical"][n] == pytest.approx(
+        -load * lever(x, at).sum(), rel=1e-8
+    )
+    assert run.reactions()[0.0]["force_z"][n] == pytest.approx(
+        load * (1 - x / deck.length).sum(), rel=1e-8
+    )
+    assert run.reactions()[deck.length]["force_z"][n] == pytest.approx(
+        load * (x / deck.length).sum(), rel=1e-8
+    )
     b = np.minimum(x, deck.length - x)
     sag = -load * np.sum(b * (3 * deck.length**2 - 4 * b**2)) / (48 * span[2])
     assert middle(run)[n] == pytest.approx(sag, rel=1e-3)
@@ -369,13 +484,17 @@ def test_infinitely_slow_crossing_gives_the_influence_lines(span, place, part):
 
 @few(8)
 @given(
-    offset=st.floats(-3.0, 3.0), aside=st.floats(-0.25, 0.25), ahead=st.floats(0.5, 1.5), place=st.floats(0.2, 0.8),
-    interaction=st.sampled_from(["iterate", "direct", "rigid"]), loads=st.sampled_from(["wheels", "condensed"]),
+    offset=st.floats(-3.0, 3.0), aside=st.floats(-0.25, 0.25), ahead=st.floats(0.5, 1.5),
+    place=st.floats(0.2, 0.8),
+    interaction=st.sampled_from(["iterate", "direct", "rigid"]), loads=st.sampled_from(["wheels",
+    "condensed"]),
 )  # fmt: skip
 def test_bearings_carry_the_weight_where_it_stands(offset, aside, ahead, place, interaction, loads):
-    """A body off the middle of its wheels, at rest: forces, couple about the deck's axis and deflection, with their signs.
+    """A body off the middle of its wheels, at rest: forces, couple about the deck's axis and
+    deflection, with their signs.
 
-    One resultant in the middle bends the deck like ``F eta - eta' M_y``, the wheels like the sum of ``F eta``.
+    One resultant in the middle bends the deck like ``F eta - eta' M_y``, the wheels like the sum of
+    ``F eta``.
     """
     body = rb.Body("body", 5e3, (2e3, 2e4, 0.0), (ahead, aside, 1.0), ("z", "roll", "pitch"))
     corners = [(x, y, 0.0) for x in (3.0, -3.0) for y in (0.98, -0.98)]
@@ -383,18 +502,33 @@ def test_bearings_carry_the_weight_where_it_stands(offset, aside, ahead, place, 
     train = rb.Train(rb.Vehicle("aside", (body,), springs, 10.0))
     deck, weight = rb.deck("viaduct36"), 5e3 * 9.81
     loads = "wheels" if interaction == "direct" else loads
-    run = cross(train, deck, speed=1e-6, time_step=1e5, track_offset=offset, interaction=interaction, loads=loads, tolerance=1e-9)
+    run = cross(
+        train,
+        deck,
+        speed=1e-6,
+        time_step=1e5,
+        track_offset=offset,
+        interaction=interaction,
+        loads=loads,
+        tolerance=1e-9,
+    )
     n = int(place * (len(run.time) - 1))
     middle_of_car = 1e-6 * run.time[n] - 3.0
     share = 1 - (middle_of_car + ahead) / 36.0
     first, second = run.reactions().values()
-    assert [first["force_z"][n], second["force_z"][n]] == pytest.approx([weight * share, weight * (1 - share)], rel=1e-8)
+    assert [first["force_z"][n], second["force_z"][n]] == pytest.approx(
+        [weight * share, weight * (1 - share)], rel=1e-8
+    )
     couple = weight * (offset + aside)
-    # Where wheels stand at different distances from the middle of the track, their own share of the couple differs too.
+    # Where wheels stand at different distances from the middle of the track, their own share of the
+    # couple differs too.
     assert first["moment_x"][n] + second["moment_x"][n] == pytest.approx(couple, rel=1e-6, abs=1e-2)
     line = deck.recovery.section("displacement_z", 12.0).influence
     if loads == "wheels":
-        sag = -sum(w.static_load * line(np.array([middle_of_car + 3.0 - w.delay]))[0, 0, 1] for w in train.wheels)
+        sag = -sum(
+            w.static_load * line(np.array([middle_of_car + 3.0 - w.delay]))[0, 0, 1]
+            for w in train.wheels
+        )
     else:
         eta, slope = (line(np.array([middle_of_car]), d)[0, 0, 1] for d in (0, 1))
         sag = -weight * (eta + ahead * slope)
@@ -404,9 +538,15 @@ def test_bearings_carry_the_weight_where_it_stands(offset, aside, ahead, place, 
 @few(3)
 @given(offset=st.floats(-3.0, 3.0), wave=waves, speed=speeds)
 def test_a_rigid_deck_gives_the_rigid_deck_forces_exactly(offset, wave, speed):
-    """A deck stiff in every way gives them to round-off; one that cannot move sideways gives the lateral ones bit by bit."""
-    track = rb.Track(vertical=wave, lateral=rb.Harmonic(0.4 * wave.amplitude, 1.3 * wave.wavelength))
-    train, options = rb.Train(CAR), {"speed": speed, "track_offset": offset, "time_step": 0.04 / speed}
+    """A deck stiff in every way gives them to round-off; one that cannot move sideways gives the
+    lateral ones bit by bit."""
+    track = rb.Track(
+        vertical=wave, lateral=rb.Harmonic(0.4 * wave.amplitude, 1.3 * wave.wavelength)
+    )
+    train, options = (
+        rb.Train(CAR),
+        {"speed": speed, "track_offset": offset, "time_step": 0.04 / speed},
+    )
     stiff = rb.Beam("stiff", (36.0,), 12e3, 1e24, 1e24, 1e24, polar_inertia=7e4).deck(20, 0.03)
     rigid = cross(train, stiff, track, interaction="rigid", **options).wheel_forces
     for interaction in ("iterate", "direct"):
@@ -421,7 +561,8 @@ def test_a_rigid_deck_gives_the_rigid_deck_forces_exactly(offset, wave, speed):
 
 @dataclass(frozen=True)
 class Frozen:
-    """A deflected deck as an irregularity: what a rail at y meets, with the slope by finite elements' own derivative."""
+    """A deflected deck as an irregularity: what a rail at y meets, with the slope by finite
+    elements' own derivative."""
 
     deck: rb.Deck
     q: np.ndarray
@@ -440,19 +581,30 @@ class Frozen:
 
 
 @few(4)
-@given(offset=st.floats(-3.0, 3.0), speed=st.sampled_from([20.0, 55.0, 90.0]), seed=st.integers(0, 9))
+@given(
+    offset=st.floats(-3.0, 3.0), speed=st.sampled_from([20.0, 55.0, 90.0]), seed=st.integers(0, 9)
+)
 def test_a_fixed_deflected_shape_is_felt_like_the_same_irregularity(offset, speed, seed):
-    """The convective term: on a deck that stands still in a bent shape, the wheels' input changes by V times its slope."""
+    """The convective term: on a deck that stands still in a bent shape, the wheels' input changes
+    by V times its slope."""
     deck, train = rb.deck("viaduct36"), rb.Train(CAR, cars=2)
     q = np.random.default_rng(seed).normal(size=8)
     q = np.append(q, np.zeros(len(deck.frequencies_hz) - 8))
     half = CAR.contacts[0].y
     bent = rb.Track(
-        vertical=rb.Rails(Frozen(deck, q, offset + half), Frozen(deck, q, offset - half)), lateral=Frozen(deck, q, None)
+        vertical=rb.Rails(Frozen(deck, q, offset + half), Frozen(deck, q, offset - half)),
+        lateral=Frozen(deck, q, None),
     )
-    # A run-up, though there is nothing to run over, and a step that falls on no element's end, where the twist's slope breaks:
-    # rounding must not decide on which side of a break a sample lies.
-    options = {"speed": speed, "track_offset": offset, "time_step": 0.01 * np.pi / speed, "interaction": "rigid", "lead_in": None}
+    # A run-up, though there is nothing to run over, and a step that falls on no element's end,
+    # where the twist's slope breaks: rounding must not decide on which side of a break a sample
+    # lies.
+    options = {
+        "speed": speed,
+        "track_offset": offset,
+        "time_step": 0.01 * np.pi / speed,
+        "interaction": "rigid",
+        "lead_in": None,
+    }
     level, bumpy = cross(train, deck, **options), cross(train, deck, bent, **options)
     still = np.repeat(q[:, None], len(level.time), axis=1)
     felt = level.coupling.train_pass(DeckState(still, np.zeros_like(still), np.zeros_like(still)))

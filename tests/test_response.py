@@ -1,4 +1,5 @@
-"""The exact sampled response against closed forms, series in exact arithmetic and an independent integrator."""
+"""The exact sampled response against closed forms, series in exact arithmetic and an independent
+integrator."""
 
 from fractions import Fraction
 from math import factorial
@@ -19,7 +20,25 @@ def phi(order, x):
     return float(sum(x**j / factorial(j + order) for j in range(80)))
 
 
-@pytest.mark.parametrize("x", [0.0, -1e-300, -1e-12, -1e-8, 1e-5, -1e-3, -0.05, 0.29, -0.2999, -0.3001, -0.7, -3.0, -9.0, 2.0])
+@pytest.mark.parametrize(
+    "x",
+    [
+        0.0,
+        -1e-300,
+        -1e-12,
+        -1e-8,
+        1e-5,
+        -1e-3,
+        -0.05,
+        0.29,
+        -0.2999,
+        -0.3001,
+        -0.7,
+        -3.0,
+        -9.0,
+        2.0,
+    ],
+)
 def test_ramp_coefficients_equal_the_exact_series(x):
     h = 0.5
     a, b0, b1 = (c[0] for c in ramp_coefficients(np.array([x / h]), h))
@@ -39,7 +58,8 @@ def test_ramp_coefficients_of_stiff_poles():
 
 @given(angle=st.floats(0.0, np.pi), size=st.floats(-6.0, 1.0))
 def test_complex_poles_solve_the_scalar_equation(angle, size):
-    # One step of z' = s z + w with w from w0 to w1, by Gauss quadrature of the variation of constants.
+    # One step of z' = s z + w with w from w0 to w1, by Gauss quadrature of the variation of
+    # constants.
     s, h, w0, w1 = -np.exp(1j * angle / 2) * 10.0**size, 1.0, 0.7, -1.3
     a, b0, b1 = (c[0] for c in ramp_coefficients(np.array([s]), h))
     points, weights = np.polynomial.legendre.leggauss(60)
@@ -49,7 +69,7 @@ def test_complex_poles_solve_the_scalar_equation(angle, size):
 
 
 def closed_form(omega, ratio, t, q0=0.0, v0=0.0):
-    """Free vibration and unit-ramp response of an oscillator: q(t), q'(t), for any damping ratio."""
+    """Free vibration and unit-ramp response of an oscillator, q(t) and q'(t), for any damping."""
     s = omega * (-ratio + np.array([1, -1]) * np.emath.sqrt(ratio**2 - 1.0))
     if ratio == 1.0:
         e = np.exp(-omega * t)
@@ -61,19 +81,24 @@ def closed_form(omega, ratio, t, q0=0.0, v0=0.0):
         return free + ramp, free_v + ramp_v
     # Particular solution t / w^2 - 2 zeta / w^3; the rest is a sum of two exponentials.
     shift = 2 * ratio / omega**3
-    a = np.linalg.solve(np.vstack([np.ones(2), s]), np.array([q0 + shift, v0 - 1 / omega**2], dtype=complex))
+    a = np.linalg.solve(
+        np.vstack([np.ones(2), s]), np.array([q0 + shift, v0 - 1 / omega**2], dtype=complex)
+    )
     e = np.exp(np.outer(t, s))
     return (e @ a).real + t / omega**2 - shift, (e @ (a * s)).real + 1 / omega**2
 
 
-@pytest.mark.parametrize("ratio", [0.0, 0.02, 0.9, 0.99999, 1 - 1e-9, 1.0, 1 + 1e-9, 1.00001, 1.5, 40.0])
+@pytest.mark.parametrize(
+    "ratio", [0.0, 0.02, 0.9, 0.99999, 1 - 1e-9, 1.0, 1 + 1e-9, 1.00001, 1.5, 40.0]
+)
 @pytest.mark.parametrize("step", [1e-4, 0.01, 0.3])
 def test_oscillator_under_a_ramp(ratio, step):
     omega = 12.0
     t = step * np.arange(200)
     q, v = oscillator(omega, ratio).sampled(step)(t[None], np.array([0.03, -0.2]))
     exact_q, exact_v = closed_form(omega, ratio if abs(ratio - 1) > 1e-8 else 1.0, t, 0.03, -0.2)
-    # Near critical damping the reference itself treats the pole as double, an error of the order of 1e-9.
+    # Near critical damping the reference itself treats the pole as double, an error of the order of
+    # 1e-9.
     rel = 1e-8 if 0 < abs(ratio - 1) < 1e-4 else 1e-10
     assert q == pytest.approx(exact_q, rel=rel, abs=rel * 0.03)
     assert v == pytest.approx(exact_v, rel=rel, abs=rel * 0.4)
@@ -82,7 +107,9 @@ def test_oscillator_under_a_ramp(ratio, step):
 def test_critical_damping_uses_the_block_and_never_garbage():
     assert oscillator(12.0, 1.0).sampled(0.01).coefficients is None
     assert oscillator(12.0, 0.9).sampled(0.01).coefficients is not None
-    triple = LinearSystem(-np.eye(3) * 5 + np.diag([1.0, 1.0], 1), np.array([[0.0], [0.0], [1.0]]), np.eye(3))
+    triple = LinearSystem(
+        -np.eye(3) * 5 + np.diag([1.0, 1.0], 1), np.array([[0.0], [0.0], [1.0]]), np.eye(3)
+    )
     t = np.linspace(0, 2, 201)
     y = triple.sampled(t[1])(np.zeros((1, 201)), np.array([0.0, 0.0, 1.0]))
     assert y == pytest.approx(np.exp(-5 * t) * np.array([t**2 / 2, t, np.ones_like(t)]), rel=1e-11)
@@ -154,7 +181,12 @@ def test_a_chain_of_masses_against_an_independent_integrator(seed, n, runs):
         assert ours[:, 0, k + 1] == pytest.approx(output @ x, rel=1e-7, abs=1e-8)
 
 
-@given(ratio=st.floats(0.0, 5.0), omega=st.floats(0.1, 1e4), step=st.floats(1e-5, 0.1), seed=st.integers(0, 99))
+@given(
+    ratio=st.floats(0.0, 5.0),
+    omega=st.floats(0.1, 1e4),
+    step=st.floats(1e-5, 0.1),
+    seed=st.integers(0, 99),
+)
 @settings(max_examples=60)
 def test_halving_the_step_of_a_piecewise_linear_input_changes_nothing(ratio, omega, step, seed):
     u = np.random.default_rng(seed).normal(size=40)

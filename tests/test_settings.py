@@ -15,13 +15,29 @@ DECK = rb.deck("viaduct36")
 
 def test_defaults():
     s = check(rb.Train(CAR), DECK, rb.Track(), speed=20.0)
-    assert (s.lead_in, s.loads, s.interaction, s.tolerance, s.track_offset) == (150.0, "wheels", "iterate", 1e-8, 0.0)
+    assert (s.lead_in, s.loads, s.interaction, s.tolerance, s.track_offset) == (
+        150.0,
+        "wheels",
+        "iterate",
+        1e-8,
+        0.0,
+    )
     assert s.time_step == 1e-3
-    assert check(rb.Train(CAR), DECK, rb.Track(), speed=20.0, track_offset="right").track_offset == -2.4
+    assert (
+        check(rb.Train(CAR), DECK, rb.Track(), speed=20.0, track_offset="right").track_offset
+        == -2.4
+    )
 
 
-@given(speed=st.floats(1.0, 120.0), spacing=st.floats(22.0, 40.0), wavelength=st.floats(0.05, 50.0), cars=st.integers(2, 5))
-def test_the_chosen_step_resolves_waves_and_divides_the_time_between_cars(speed, spacing, wavelength, cars):
+@given(
+    speed=st.floats(1.0, 120.0),
+    spacing=st.floats(22.0, 40.0),
+    wavelength=st.floats(0.05, 50.0),
+    cars=st.integers(2, 5),
+)
+def test_the_chosen_step_resolves_waves_and_divides_the_time_between_cars(
+    speed, spacing, wavelength, cars
+):
     train = rb.Train(CAR, cars=cars, car_spacing=spacing)
     step = default_time_step(train, rb.Track(rb.Harmonic(1e-3, wavelength=wavelength)), speed)
     assert step <= 1e-3 * (1 + 1e-12)
@@ -58,4 +74,6 @@ def test_a_lead_in_too_short_for_its_fade_in_is_refused():
     # Not given, it is long enough even where 7.5 s are but a few samples.
     assert check(train, deck, track, speed=1e-6, time_step=1e4).lead_in == pytest.approx(0.2)
     for length in (0.0, 0.4):
-        assert check(train, deck, track, speed=20.0, time_step=1e-3, lead_in=length).lead_in == length
+        assert (
+            check(train, deck, track, speed=20.0, time_step=1e-3, lead_in=length).lead_in == length
+        )

@@ -10,7 +10,9 @@ import railbridge as rb
 
 def test_a_whole_number_of_periods_is_one_line_of_its_amplitude():
     t = np.arange(3000) * 1e-3
-    spectrum = rb.amplitude_spectrum(7.0 + 5.0 * np.sin(2 * np.pi * 4.0 * t) + 2.0 * np.cos(2 * np.pi * 9.0 * t), 1e-3)
+    spectrum = rb.amplitude_spectrum(
+        7.0 + 5.0 * np.sin(2 * np.pi * 4.0 * t) + 2.0 * np.cos(2 * np.pi * 9.0 * t), 1e-3
+    )
     assert len(spectrum.amplitude) == 60
     assert spectrum.frequency[:3] == pytest.approx([1 / 3, 2 / 3, 1.0])
     assert spectrum.peak == pytest.approx((4.0, 5.0))

@@ -15,12 +15,21 @@ def steepness(irregularity, x, step=1e-5):
     return (irregularity.value(x + step) - irregularity.value(x - step)) / (2 * step)
 
 
-@given(amplitude=st.floats(0, 0.02), wavelength=st.floats(0.5, 100.0), phase=st.floats(-7, 7), at=metres)
+@given(
+    amplitude=st.floats(0, 0.02),
+    wavelength=st.floats(0.5, 100.0),
+    phase=st.floats(-7, 7),
+    at=metres,
+)
 def test_equation_1_and_its_slope(amplitude, wavelength, phase, at):
     wave = rb.Harmonic(amplitude, wavelength=wavelength, phase=phase)
     x = np.array([at])
-    assert wave.value(x)[0] == pytest.approx(amplitude * np.sin(2 * np.pi * at / wavelength + phase), abs=1e-15)
-    assert wave.slope(x) == pytest.approx(steepness(wave, x), abs=1e-6 * (1 + amplitude / wavelength))
+    assert wave.value(x)[0] == pytest.approx(
+        amplitude * np.sin(2 * np.pi * at / wavelength + phase), abs=1e-15
+    )
+    assert wave.slope(x) == pytest.approx(
+        steepness(wave, x), abs=1e-6 * (1 + amplitude / wavelength)
+    )
 
 
 def test_length_and_half_waves():
@@ -55,7 +64,9 @@ def test_a_notch_lowers_the_wheel_once_a_turn_from_its_first_contact():
     notch = rb.Notch(((1, 1),), circumference=2.8, offset=1.0, depth=1e-3, length=0.05)
     assert notch.value(np.array([1.025, 3.825, 6.625])) == pytest.approx([-1e-3] * 3)
     assert notch.value(np.array([-1.775, 0.99, 1.06, 2.4])) == pytest.approx(0.0)
-    always = rb.Notch(((1, 1),), circumference=2.8, offset=1.0, depth=1e-3, length=0.05, before_entrance=True)
+    always = rb.Notch(
+        ((1, 1),), circumference=2.8, offset=1.0, depth=1e-3, length=0.05, before_entrance=True
+    )
     assert always.value(np.array([-1.775])) == pytest.approx(-1e-3)
     assert notch.shortest == 0.05
 
@@ -110,7 +121,10 @@ def test_sums_rails_and_levels():
     assert track.shortest == 3.0
     level = rb.Track()
     assert level.shortest == np.inf
-    assert not level.rail("vertical", "left").value(x).any() and not level.rail("lateral", "right").slope(x).any()
+    assert (
+        not level.rail("vertical", "left").value(x).any()
+        and not level.rail("lateral", "right").slope(x).any()
+    )
     assert rb.Track(vertical=rb.Harmonic(0.0, wavelength=1e-3)).shortest == np.inf
     one_rail = rb.Track(vertical=rb.Rails(left=a))
     assert one_rail.rail("vertical", "right").value(x) == pytest.approx(0.0)

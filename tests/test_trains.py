@@ -28,8 +28,12 @@ def test_wheels_of_a_train():
     train = rb.Train(CAR, cars=2, car_spacing=22.5)
     wheels = train.wheels
     assert [(w.car, w.number) for w in wheels] == [(c, n) for c in (1, 2) for n in range(1, 9)]
-    assert [w.delay for w in wheels] == pytest.approx(np.repeat([0, 2.5, 15.6, 18.1, 22.5, 25.0, 38.1, 40.6], 2).tolist())
-    assert {w.side for w in wheels if w.y > 0} == {"left"} and {w.side for w in wheels if w.y < 0} == {"right"}
+    assert [w.delay for w in wheels] == pytest.approx(
+        np.repeat([0, 2.5, 15.6, 18.1, 22.5, 25.0, 38.1, 40.6], 2).tolist()
+    )
+    assert {w.side for w in wheels if w.y > 0} == {"left"} and {
+        w.side for w in wheels if w.y < 0
+    } == {"right"}
     assert train.length == pytest.approx(40.6)
     assert train.centres == pytest.approx([9.05, 31.55])
     assert rb.Train(CAR, cars=2).centres == pytest.approx(train.centres)  # the vehicle's own length
@@ -42,30 +46,45 @@ def test_mixed_train_takes_half_lengths():
     assert train.cars == 3 and len(train.kinds()) == 2
 
 
-@pytest.mark.parametrize(("wavelength", "with_delays", "in_phase"), [(14.4, 75.8e3, 91.8e3), (15.0, 81.0e3, 94.2e3)])
+@pytest.mark.parametrize(
+    ("wavelength", "with_delays", "in_phase"), [(14.4, 75.8e3, 91.8e3), (15.0, 81.0e3, 94.2e3)]
+)
 def test_bounce_amplitude_of_the_paper_s_waves(wavelength, with_delays, in_phase):
-    assert bounce(rb.steady_forces(CAR, waves(wavelength), V)) == pytest.approx(with_delays, rel=1e-3)
-    assert bounce(rb.steady_forces(CAR, waves(wavelength), V, "car")) == pytest.approx(in_phase, rel=1e-3)
+    assert bounce(rb.steady_forces(CAR, waves(wavelength), V)) == pytest.approx(
+        with_delays, rel=1e-3
+    )
+    assert bounce(rb.steady_forces(CAR, waves(wavelength), V, "car")) == pytest.approx(
+        in_phase, rel=1e-3
+    )
     # Delays act as the wheelbase filter.
     filtered = abs(np.cos(2 * np.pi * 7.8 / wavelength) * np.cos(2 * np.pi * 1.25 / wavelength))
     assert with_delays / in_phase == pytest.approx(filtered, rel=2e-3)
 
 
 def test_short_waves_leave_pitch_and_no_bounce():
-    forces = rb.steady_forces(CAR, rb.Track(vertical=rb.Harmonic(5e-3, length=36.0, half_waves=11.7)), V)
+    forces = rb.steady_forces(
+        CAR, rb.Track(vertical=rb.Harmonic(5e-3, length=36.0, half_waves=11.7)), V
+    )
     assert bounce(forces) == pytest.approx(0.58e3, rel=0.02)
     assert pitch(forces) == pytest.approx(52.6e3, rel=2e-3)
-    in_phase = rb.steady_forces(CAR, rb.Track(vertical=rb.Harmonic(5e-3, length=36.0, half_waves=11.7)), V, "car")
+    in_phase = rb.steady_forces(
+        CAR, rb.Track(vertical=rb.Harmonic(5e-3, length=36.0, half_waves=11.7)), V, "car"
+    )
     assert bounce(in_phase) == pytest.approx(18e3, rel=0.03)
 
 
 def test_worst_unloading():
-    forces = rb.steady_forces(CAR, waves(14.4, lateral=rb.Harmonic(2e-3, wavelength=14.4, phase=np.pi / 2)), V)
-    assert np.abs(forces[:, 1]).max() / CAR.contacts[0].static_load == pytest.approx(0.149, abs=1e-3)
+    forces = rb.steady_forces(
+        CAR, waves(14.4, lateral=rb.Harmonic(2e-3, wavelength=14.4, phase=np.pi / 2)), V
+    )
+    assert np.abs(forces[:, 1]).max() / CAR.contacts[0].static_load == pytest.approx(
+        0.149, abs=1e-3
+    )
 
 
 @given(
-    wavelength=st.floats(6.0, 40.0), phase=st.floats(-3, 3), speed=st.floats(15.0, 60.0), sides=st.booleans(),
+    wavelength=st.floats(6.0, 40.0), phase=st.floats(-3, 3), speed=st.floats(15.0, 60.0),
+    sides=st.booleans(),
     excitation=st.sampled_from(["wheels", "car"]),
 )  # fmt: skip
 @settings(max_examples=8)
@@ -92,7 +111,9 @@ def test_rigid_forces_are_second_order_in_the_step():
         n = round(1.6 / h)
         centre = speed * h * np.arange(n) - 9.05
         exact = (steady[..., None] * np.exp(2j * np.pi * centre / 14.4)).imag
-        errors.append(np.abs(rb.Train(CAR).rigid_forces(track, Passage(speed, h, n, 1000.0))[0] - exact).max())
+        errors.append(
+            np.abs(rb.Train(CAR).rigid_forces(track, Passage(speed, h, n, 1000.0))[0] - exact).max()
+        )
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
     assert errors[1] / errors[2] == pytest.approx(4.0, rel=0.1)
 
@@ -100,7 +121,9 @@ def test_rigid_forces_are_second_order_in_the_step():
 @pytest.mark.parametrize("spacing", [22.5, 22.513, 23.0071])
 def test_a_car_further_back_feels_the_same_later(spacing):
     """Cars that do not meet the samples alike are run each in its own place between them."""
-    track = rb.Track(vertical=rb.Harmonic(5e-3, wavelength=11.0), lateral=rb.Harmonic(2e-3, wavelength=13.0))
+    track = rb.Track(
+        vertical=rb.Harmonic(5e-3, wavelength=11.0), lateral=rb.Harmonic(2e-3, wavelength=13.0)
+    )
     h, n = 1e-3, 4000
     forces = rb.Train(CAR, cars=3, car_spacing=spacing).rigid_forces(track, Passage(V, h, n, 150.0))
     t = h * np.arange(n)
@@ -142,15 +165,20 @@ def test_a_notch_is_felt_by_its_wheel_first_and_no_other_car():
 
 def test_notch_as_in_the_paper_is_nearly_all_damper():
     notch = rb.Notch(((1, 1),), circumference=2.8, offset=1.0, depth=1e-3, length=0.05)
-    forces = rb.Train(CAR, notches=(notch,)).rigid_forces(rb.Track(), Passage(V, 2.5e-5, 4000))[0][0, 1]
+    forces = rb.Train(CAR, notches=(notch,)).rigid_forces(rb.Track(), Passage(V, 2.5e-5, 4000))[0][
+        0, 1
+    ]
     damper = 15e3 * V * np.pi * 1e-3 / 0.05
     assert np.abs(forces).max() == pytest.approx(damper, rel=0.15)
     assert 17e3 < np.abs(forces).max() < 23e3
 
 
-@pytest.mark.parametrize(("loads", "stations", "components"), [("wheels", 4, 3), ("bogies", 2, 5), ("condensed", 1, 5)])
+@pytest.mark.parametrize(
+    ("loads", "stations", "components"), [("wheels", 4, 3), ("bogies", 2, 5), ("condensed", 1, 5)]
+)
 def test_condensation_does_the_same_work(loads, stations, components):
-    """Virtual work on any motion the stations can follow: linear along x within a station, any twist."""
+    """Virtual work on any motion the stations can follow: linear along x within a station, any
+    twist."""
     condensation = rb.Train(CAR).car(1).condensation(loads)
     assert condensation.matrix.shape == (stations, components, 8, 2)
     rng = np.random.default_rng(3)
@@ -169,7 +197,9 @@ def test_condensation_does_the_same_work(loads, stations, components):
                 total += forces[i] @ (v + slope_v * dx, w + slope_w * dx + c.y * theta)
         total -= load @ motion
     assert total == pytest.approx(0.0, abs=1e-12)
-    places = {"wheels": [9.05, 6.55, -6.55, -9.05], "bogies": [7.8, -7.8], "condensed": [0.0]}[loads]
+    places = {"wheels": [9.05, 6.55, -6.55, -9.05], "bogies": [7.8, -7.8], "condensed": [0.0]}[
+        loads
+    ]
     assert condensation.offsets == pytest.approx(places)
 
 
@@ -178,7 +208,9 @@ def test_signs_of_the_condensed_components():
         return rb.Train(CAR).car(1).condensation("condensed").matrix[0, :, wheel, direction]
 
     assert of(0, 0) == pytest.approx([1, 0, 0, 0, 9.05])  # front left, pushed left: yaw to the left
-    assert of(0, 1) == pytest.approx([0, 1, 0.98, -9.05, 0])  # lifted: rolls to the right, nose up is negative pitch
+    assert of(0, 1) == pytest.approx(
+        [0, 1, 0.98, -9.05, 0]
+    )  # lifted: rolls to the right, nose up is negative pitch
     assert of(7, 1) == pytest.approx([0, 1, -0.98, 9.05, 0])
 
 
@@ -193,7 +225,9 @@ def test_axle_train():
 
 
 def test_steady_state_needs_one_wavelength():
-    track = rb.Track(vertical=rb.Harmonic(5e-3, wavelength=14.4), lateral=rb.Harmonic(5e-3, wavelength=12.0))
+    track = rb.Track(
+        vertical=rb.Harmonic(5e-3, wavelength=14.4), lateral=rb.Harmonic(5e-3, wavelength=12.0)
+    )
     for wrong in (track, rb.Track(), rb.Track(vertical=rb.Table([0, 10.0], [0, 1e-3]))):
         with pytest.raises(rb.InputError, match="one wavelength"):
             rb.steady_forces(CAR, wrong, V)

@@ -14,13 +14,32 @@ from railbridge.vehicles import Body, Spring, Vehicle
 CAR = rb.vehicle("xia2000")
 PARAMETERS = rb.car_parameters("xia2000")
 NATURAL = [
-    0.6451, 1.2138, 1.2298, 1.3345, 1.6768, 9.0444, 9.0552, 11.7201, 11.7201, 15.4791, 15.4824, 21.9588, 21.9589, 24.9903,
+    0.6451, 1.2138, 1.2298, 1.3345, 1.6768, 9.0444, 9.0552, 11.7201, 11.7201, 15.4791, 15.4824,
+    21.9588, 21.9589, 24.9903,
     24.9903,
 ]  # fmt: skip
-PRINTED = [0.645, 1.215, 1.230, 1.334, 1.667, 9.044, 9.055, 11.72, 11.72, 15.48, 15.48, 21.96, 21.96, 24.99, 24.99]
+PRINTED = [
+    0.645,
+    1.215,
+    1.230,
+    1.334,
+    1.667,
+    9.044,
+    9.055,
+    11.72,
+    11.72,
+    15.48,
+    15.48,
+    21.96,
+    21.96,
+    24.99,
+    24.99,
+]
 DAMPED = [
-    (0.648, 0.067), (1.217, 0.244), (1.227, 0.211), (1.338, 0.103), (1.684, 0.129), (9.016, 0.252), (9.021, 0.248),
-    (11.72, 0.186), (11.72, 0.186), (15.485, 0.494), (15.494, 0.494), (21.90, 0.100), (21.90, 0.100), (24.99, 0.059),
+    (0.648, 0.067), (1.217, 0.244), (1.227, 0.211), (1.338, 0.103), (1.684, 0.129), (9.016, 0.252),
+    (9.021, 0.248),
+    (11.72, 0.186), (11.72, 0.186), (15.485, 0.494), (15.494, 0.494), (21.90, 0.100), (21.90,
+    0.100), (24.99, 0.059),
     (24.99, 0.059),
 ]  # fmt: skip
 
@@ -82,11 +101,13 @@ def motion_of(car, translation=(0, 0), roll=0.0, pitch=0.0, yaw=0.0):
         body, freedom = label.rsplit(" ", 1)
         px, py, pz = next(b.position for b in car.bodies if b.name == body)
         x[i] = {
-            "y": translation[0] - roll * pz + yaw * px, "z": translation[1] + roll * py - pitch * px,
+            "y": translation[0] - roll * pz + yaw * px,
+            "z": translation[1] + roll * py - pitch * px,
             "roll": roll, "pitch": pitch, "yaw": yaw,
         }[freedom]  # fmt: skip
     support = [
-        (translation[0] + yaw * c.x, translation[1] + roll * c.y - pitch * c.x) for c in car.contacts
+        (translation[0] + yaw * c.x, translation[1] + roll * c.y - pitch * c.x)
+        for c in car.contacts
     ]  # wheels at rail level, z = 0
     return x, np.array(support)
 
@@ -150,7 +171,10 @@ def frequency_of(car, name):
 
 
 def test_exercises_with_checked_answers():
-    heavier = {k: v * 1.3 if k.startswith("car_body") and "above" not in k else v for k, v in PARAMETERS.items()}
+    heavier = {
+        k: v * 1.3 if k.startswith("car_body") and "above" not in k else v
+        for k, v in PARAMETERS.items()
+    }
     car = two_bogie_car("heavier", **heavier)
     assert frequency_of(car, "car z") == pytest.approx(1.171, abs=6e-4)
     assert car.modes().frequencies_hz[0] == pytest.approx(0.566, abs=6e-4)
@@ -200,9 +224,11 @@ def test_the_ends_of_a_spring_may_be_given_either_way():
 @given(factor=st.floats(0.1, 10.0), seed=st.integers(0, 99))
 @settings(max_examples=20)
 def test_forces_scale_with_the_car(factor, seed):
-    """Masses, springs and dampers all times a factor: the same frequencies, forces times the factor."""
+    """Masses, springs and dampers all times a factor: the same frequencies, forces times the
+    factor."""
     scaled = {
-        k: v * factor if any(w in k for w in ("mass", "inertia", "stiffness", "damping")) else v for k, v in PARAMETERS.items()
+        k: v * factor if any(w in k for w in ("mass", "inertia", "stiffness", "damping")) else v
+        for k, v in PARAMETERS.items()
     }
     car = two_bogie_car("scaled", **scaled)
     assert car.modes().frequencies_hz == pytest.approx(NATURAL, rel=2e-4)
@@ -218,7 +244,9 @@ def test_frames_have_units():
 
 def test_a_vehicle_that_tips_over_is_refused():
     body = Body("mass", 1e4, (1e4, 1e5, 1e5), (6.0, 0.0, 1.0), ("z", "pitch"))
-    springs = tuple(Spring("mass", "rail", (x, 0.0, 0.0), (0.0, 1e6), (0.0, 1e3)) for x in (3.0, -3.0))
+    springs = tuple(
+        Spring("mass", "rail", (x, 0.0, 0.0), (0.0, 1e6), (0.0, 1e3)) for x in (3.0, -3.0)
+    )
     with pytest.raises(rb.InputError, match=r"wheel at x = -3, y = 0 m.*tips over"):
         Vehicle("eccentric", (body,), springs, 10.0)
 
@@ -226,11 +254,19 @@ def test_a_vehicle_that_tips_over_is_refused():
 def test_planar_car_leaves_lateral_springs_out():
     bumper = Spring("car", "rail", (0.0, 0.0, 0.5), (1e5, 0.0), (0.0, 0.0))
     with_bumper = replace(CAR, springs=(*CAR.springs, bumper))
-    assert planar_car(with_bumper).modes().frequencies_hz == pytest.approx(planar_car(CAR).modes().frequencies_hz)
+    assert planar_car(with_bumper).modes().frequencies_hz == pytest.approx(
+        planar_car(CAR).modes().frequencies_hz
+    )
 
 
 def test_matrices_are_kept_and_cannot_be_changed():
-    for matrix in (CAR.mass_matrix, CAR.stiffness_matrix, CAR.damping_matrix, CAR.contact_stiffness, CAR.contact_damping):
+    for matrix in (
+        CAR.mass_matrix,
+        CAR.stiffness_matrix,
+        CAR.damping_matrix,
+        CAR.contact_stiffness,
+        CAR.contact_damping,
+    ):
         with pytest.raises(ValueError, match="read-only"):
             matrix[0, 0] = 1.0
 

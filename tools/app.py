@@ -1,11 +1,12 @@
-"""Show the explorer of notebook 00 as a web page: its title, one paragraph, the panel, and no code. Ends with Ctrl-C.
+"""Show the explorer of notebook 00 as a web page: its title, one paragraph, the panel, and no code.
+Ends with Ctrl-C.
 
     python tools/app.py                opens the browser
     python tools/app.py --no-browser   prints the address only
     python tools/app.py --port 8900    on a port of one's choice; default a free one
 
-Voila serves the page on this machine only; nothing is fetched from elsewhere. Numbers are computed here, for each page that is
-open by a kernel of its own.
+Voila serves the page on this machine only; nothing is fetched from elsewhere. Numbers are computed
+here, for each page that is open by a kernel of its own.
 """
 
 import argparse
@@ -28,10 +29,12 @@ NAME = "explorer.ipynb"
 
 # Letters grow with the page, for those in the last row; the picture takes the height that is left.
 STYLE = """<style>
-:root { --jp-widgets-font-size: clamp(13px, 1.02vw, 22px) !important; --jp-content-font-size1: clamp(13px, 1.02vw, 22px); }
+:root { --jp-widgets-font-size: clamp(13px, 1.02vw, 22px) !important; }
+:root { --jp-content-font-size1: clamp(13px, 1.02vw, 22px); }
 body { background: white !important; color: #222 !important; }
 .jp-Notebook, .jp-Cell, #rendered_cells { padding: 0 !important; margin: 0 !important; }
-.rb-head { margin: 0 12px; font-family: sans-serif; font-size: clamp(13px, 1.02vw, 22px); line-height: 1.35; }
+.rb-head { margin: 0 12px; font-family: sans-serif; line-height: 1.35; }
+.rb-head { font-size: clamp(13px, 1.02vw, 22px); }
 .rb-head h1 { font-size: 1.5em; margin: 6px 0 4px; }
 .rb-head p { margin: 0 0 6px; }
 .rb-panel { margin: 0 12px !important; overflow: visible !important; }
@@ -39,9 +42,11 @@ body { background: white !important; color: #222 !important; }
 .rb-panel .rb-main { max-width: calc((100vh - 11.5em) * 1.96) !important; }
 .rb-panel .rb-summary, .rb-panel .rb-error { line-height: 1.3; }
 </style>"""
-HEAD = """<div class="rb-head"><h1>What does a train do to a railway bridge, and what does the bridge do back?</h1>
-<p>The wheels roll over waves in the track and push on the deck; the deck bends and moves the wheels; and so on, a few rounds,
-until the two agree. Move speed and wavelength: when is the force large, when the sag, how much does each round still change?
+HEAD = """<div class="rb-head">
+<h1>What does a train do to a railway bridge, and what does the bridge do back?</h1>
+<p>The wheels roll over waves in the track and push on the deck; the deck bends and moves the
+wheels; and so on, a few rounds, until the two agree. Move speed and wavelength: when is the force
+large, when the sag, how much does each round still change?
 </p></div>"""
 CELLS = (
     f'from IPython.display import HTML\nHTML("""{STYLE}{HEAD}""")',
@@ -49,7 +54,9 @@ CELLS = (
 )
 # Voila's own page with its links to elsewhere taken out: icons that a panel does not use.
 TEMPLATE = """{%- extends 'lab/index.html.j2' -%}
-{%- block notebook_css -%}{{ super() | replace('href="https://', 'data-left-out="https://') }}{%- endblock -%}
+{%- block notebook_css -%}
+{{ super() | replace('href="https://', 'data-left-out="https://') }}
+{%- endblock -%}
 """
 
 
@@ -83,7 +90,9 @@ def wait_until_ready(server, port, log):
     end = time.monotonic() + STARTS_WITHIN
     while not listens(port):
         if server.poll() is not None or time.monotonic() > end:
-            sys.exit(f"voila did not start:\n{log.read_text(encoding='utf-8', errors='replace')[-2000:]}")
+            sys.exit(
+                f"voila did not start:\n{log.read_text(encoding='utf-8', errors='replace')[-2000:]}"
+            )
         time.sleep(0.1)
 
 
@@ -97,15 +106,27 @@ def main(arguments):
     port = given.port or free_port()
     if listens(port):
         sys.exit(f"port {port} is taken: leave --port out to have a free one chosen")
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends like Ctrl-C, and the server with it
+    signal.signal(
+        signal.SIGTERM, signal.default_int_handler
+    )  # ends like Ctrl-C, and the server with it
     with tempfile.TemporaryDirectory() as folder:
         path, log = write_page(folder), Path(folder) / "log.txt"
-        command = [sys.executable, "-m", "voila", path.name, "--no-browser", f"--port={port}", f"--Voila.ip={ADDRESS}"]
+        command = [
+            sys.executable,
+            "-m",
+            "voila",
+            path.name,
+            "--no-browser",
+            f"--port={port}",
+            f"--Voila.ip={ADDRESS}",
+        ]
         command += ["--template=explorer", "--theme=light"]
         found = os.pathsep.join(filter(None, [folder, os.environ.get("JUPYTER_PATH")]))
         environment = {"OMP_NUM_THREADS": "1", **os.environ, "JUPYTER_PATH": found}
         with log.open("w", encoding="utf-8") as stream:
-            server = subprocess.Popen(command, cwd=folder, env=environment, stdout=stream, stderr=subprocess.STDOUT)
+            server = subprocess.Popen(
+                command, cwd=folder, env=environment, stdout=stream, stderr=subprocess.STDOUT
+            )
         try:
             wait_until_ready(server, port, log)
             url = f"http://{ADDRESS}:{port}/"

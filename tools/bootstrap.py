@@ -1,12 +1,12 @@
 """Create or update the project's environment in `.venv`, and do nothing when it is already right.
 
-    python3 tools/bootstrap.py            create or update `.venv`
-    python3 tools/bootstrap.py --lock     write requirements.lock from pyproject.toml (add --upgrade for newer versions)
+    python3 tools/bootstrap.py            create or update `.venv` python3 tools/bootstrap.py --lock
+    write requirements.lock from pyproject.toml (add --upgrade for newer versions)
 
-Any Python >= 3.11 with its standard library runs this file. It installs the versions of requirements.lock with uv,
-which is several times faster than pip and byte-compiles in parallel, and falls back to pip where uv cannot be had or
-cannot reach the package index. The stamp `.venv/railbridge-stamp.json` is written last, so an interrupted run is
-noticed and repaired.
+Any Python >= 3.11 with its standard library runs this file. It installs the versions of
+requirements.lock with uv, which is several times faster than pip and byte-compiles in parallel, and
+falls back to pip where uv cannot be had or cannot reach the package index. The stamp
+`.venv/railbridge-stamp.json` is written last, so an interrupted run is noticed and repaired.
 """
 
 import ast
@@ -25,7 +25,8 @@ ROOT = Path(__file__).resolve().parents[1]
 OLDEST_PYTHON = "3.11"
 EXTRAS = ("fem", "app", "site", "test", "dev")
 
-# pip's settings -> uv's environment variables: uv does not read pip's configuration, where people name their mirrors.
+# pip's settings -> uv's environment variables: uv does not read pip's configuration, where people
+# name their mirrors.
 UV_NAME = {
     "index-url": "UV_DEFAULT_INDEX",
     "extra-index-url": "UV_INDEX",
@@ -51,7 +52,8 @@ class Environment:
         self.unfinished = self.path / "railbridge-unfinished"
 
     def wanted(self):
-        """What a right environment's stamp says: the inputs it was made from and the place it was made for."""
+        """What a right environment's stamp says: the inputs it was made from and the place it was
+        made for."""
         digest = hashlib.sha256()
         for file in (self.lock, self.root / "pyproject.toml", Path(__file__)):
             digest.update(file.read_bytes() + b"\0")
@@ -68,7 +70,8 @@ class Environment:
         return self.stamped() == self.wanted() and self.python.exists()
 
     def must_start_over(self):
-        """True if what stands there is half-made, moved from another folder, or has lost its Python."""
+        """True if what stands there is half-made, moved from another folder, or has lost its
+        Python."""
         if not self.path.exists():
             return True
         moved = self.stamped().get("root", str(self.root)) != str(self.root)
@@ -103,26 +106,53 @@ class Environment:
         """Put the locked uv into the environment; False where that fails."""
         locked = [line for line in self.locked_lines() if re.match(r"uv\s*==", line)]
         wheel_only = ["--only-binary=:all:", "--no-deps", "--no-compile", "--quiet"]
-        command = [self.python, "-m", "pip", "--disable-pip-version-check", "install", *wheel_only, *(locked or ["uv"])]
+        command = [
+            self.python,
+            "-m",
+            "pip",
+            "--disable-pip-version-check",
+            "install",
+            *wheel_only,
+            *(locked or ["uv"]),
+        ]
         return subprocess.run(command, capture_output=True).returncode == 0
 
     def locked_lines(self):
         return self.lock.read_text(encoding="utf-8").splitlines() if self.lock.exists() else []
 
     def install_with_uv(self):
-        uv = [self.python, "-m", "uv", "pip", "install", "--quiet", "--python", str(self.python), "--no-deps"]
+        uv = [
+            self.python,
+            "-m",
+            "uv",
+            "pip",
+            "install",
+            "--quiet",
+            "--python",
+            str(self.python),
+            "--no-deps",
+        ]
         environment = uv_environment(pip_settings(self.python))
         return all(
             subprocess.run([*uv, *what], cwd=self.root, env=environment).returncode == 0
             for what in (
                 ["--compile-bytecode", "-r", str(self.lock)],
-                # After the lock: the build backend is now in the environment, so nothing is fetched to build with.
+                # After the lock: the build backend is now in the environment, so nothing is fetched
+                # to build with.
                 ["--no-build-isolation", "-e", "."],
             )
         )
 
     def install_with_pip(self):
-        pip = [self.python, "-m", "pip", "--disable-pip-version-check", "install", "--quiet", "--no-deps"]
+        pip = [
+            self.python,
+            "-m",
+            "pip",
+            "--disable-pip-version-check",
+            "install",
+            "--quiet",
+            "--no-deps",
+        ]
         run([*pip, "-r", str(self.lock)], cwd=self.root)
         run([*pip, "--no-build-isolation", "-e", "."], cwd=self.root)
 
@@ -133,27 +163,46 @@ class Environment:
             run([sys.executable, "-m", "venv", str(self.path)])
         if not self.has_uv():
             sys.exit("The lock is made with uv, and uv could not be installed; see pip's settings.")
-        command = [self.python, "-m", "uv", "pip", "compile", "pyproject.toml", "--universal", "--quiet"]
+        command = [
+            self.python,
+            "-m",
+            "uv",
+            "pip",
+            "compile",
+            "pyproject.toml",
+            "--universal",
+            "--quiet",
+        ]
         command += ["--python-version", OLDEST_PYTHON, "--no-annotate", "--no-header"]
         command += [option for extra in EXTRAS for option in ("--extra", extra)]
-        run([*command, "-o", str(self.lock), *options], cwd=self.root, env=uv_environment(pip_settings(self.python)))
+        run(
+            [*command, "-o", str(self.lock), *options],
+            cwd=self.root,
+            env=uv_environment(pip_settings(self.python)),
+        )
 
 
 def pip_settings(python):
-    """pip's settings as {name: [values]}; what stands in the environment wins over [install], that over [global]."""
-    listing = subprocess.run([python, "-m", "pip", "config", "list"], capture_output=True, text=True).stdout
+    """pip's settings as {name: [values]}; what stands in the environment wins over [install], that
+    over [global]."""
+    listing = subprocess.run(
+        [python, "-m", "pip", "config", "list"], capture_output=True, text=True
+    ).stdout
     ranked = {}
     for line in listing.splitlines():
         found = re.fullmatch(r"(global|install|:env:)\.([\w-]+)=(.*)", line.strip())
         if found:
             section, name, value = found.groups()
             with contextlib.suppress(ValueError, SyntaxError):
-                ranked[("global", "install", ":env:").index(section), name] = str(ast.literal_eval(value)).split()
+                ranked[("global", "install", ":env:").index(section), name] = str(
+                    ast.literal_eval(value)
+                ).split()
     return {name: values for (_, name), values in sorted(ranked.items())}
 
 
 def uv_environment(settings):
-    """The process environment plus uv's own names for pip's settings; names that are already set are left alone."""
+    """The process environment plus uv's own names for pip's settings; names that are already set
+    are left alone."""
     derived = {"UV_PYTHON_DOWNLOADS": "never", "UV_INDEX_STRATEGY": "unsafe-best-match"}
     for name, values in settings.items():
         if name in UV_NAME and values:
@@ -166,7 +215,10 @@ def uv_environment(settings):
 def require_python(version=sys.version_info):
     """One line and exit code 1 if this Python is too old."""
     if (version[0], version[1]) < tuple(map(int, OLDEST_PYTHON.split("."))):
-        sys.exit(f"railbridge needs Python {OLDEST_PYTHON} or newer; this is Python {version[0]}.{version[1]}.")
+        sys.exit(
+            f"railbridge needs Python {OLDEST_PYTHON} or newer; this is Python "
+            f"{version[0]}.{version[1]}."
+        )
 
 
 def require_venv():
@@ -177,7 +229,8 @@ def require_venv():
         except ImportError:
             name = f"python{sys.version_info[0]}.{sys.version_info[1]}-venv"
             sys.exit(
-                f"This Python has no '{module}' module: install the package {name} (on Debian and Ubuntu: "
+                f"This Python has no '{module}' module: install the package {name} (on Debian "
+                "and Ubuntu: "
                 f"apt install {name}), or run with another Python."
             )
 

@@ -1,10 +1,21 @@
-"""Delete what the project's commands write: the environment, caches and build/. Nothing that git tracks is touched."""
+"""Delete what the project's commands write: the environment, caches and build/.
+
+Nothing that git tracks is touched.
+"""
 
 import shutil
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-FOLDERS = (".venv", "build", "dist", ".pytest_cache", ".hypothesis", ".ruff_cache", ".import_linter_cache")
+FOLDERS = (
+    ".venv",
+    "build",
+    "dist",
+    ".pytest_cache",
+    ".hypothesis",
+    ".ruff_cache",
+    ".import_linter_cache",
+)
 SCATTERED = ("__pycache__", ".ipynb_checkpoints")
 
 if __name__ == "__main__":

@@ -1,7 +1,9 @@
-"""Fit the dimensions of the paper's missing Figure 6 and store them: ``make identify``, at most ten minutes.
+"""Fit the dimensions of the paper's missing Figure 6 and store them: ``make identify``, at most ten
+minutes.
 
-Writes ``data/identification/viaduct36_identified.json`` (all searches, sensitivities) and the deck file
-``data/decks/viaduct36_identified.toml``. With ``--starts 1 --to DIR`` it tries itself quickly and elsewhere.
+Writes ``data/identification/viaduct36_identified.json`` (all searches, sensitivities) and the deck
+file ``data/decks/viaduct36_identified.toml``. With ``--starts 1 --to DIR`` it tries itself quickly
+and elsewhere.
 """
 
 import argparse
@@ -13,11 +15,13 @@ from railbridge.cases import shelf
 from railbridge.validation import candidates, fitting
 
 DECK = """\
-# The deck of the paper's case study as ONE BOX THAT FITS: IDENTIFIED, NOT KNOWN. Figure 6 (section and properties) is missing.
+# The deck of the paper's case study as ONE BOX THAT FITS: IDENTIFIED, NOT KNOWN. Figure 6 (section
+# and properties) is missing.
 #
-# Written by `make identify`: dimensions whose shell comes closest to the 15 deck frequencies of Table 2 and to the mass per
-# metre of Table 4. Other boxes fit as well; data/identification tells which combinations the data leave open.
-# The reproduction deck is viaduct36, which this file does not replace.
+# Written by `make identify`: dimensions whose shell comes closest to the 15 deck frequencies of
+# Table 2 and to the mass per metre of Table 4. Other boxes fit as well; data/identification tells
+# which combinations the data leave open. The reproduction deck is viaduct36, which this file does
+# not replace.
 name = "{name}"
 source = "fitted to Amaral & Mazzilli 2016, Tables 2 and 4"
 note = "identified, not known"
@@ -25,7 +29,7 @@ model = "beam"                      # or "shell", the same box in shell elements
 spans = [36.0]                      # m
 modes = 20
 
-[box]                               # m, Pa, kg; heights and widths overall, webs between middle planes
+[box]                               # m, Pa, kg; overall sizes, webs between middle planes
 {dimensions}
 [damping]                           # Rayleigh, as in the paper
 ratio = 0.03
@@ -48,7 +52,8 @@ drop = {drop:g}
 """
 
 _WRITTEN = (
-    "slab_width", "slab_thickness", "root_thickness", "edge_thickness", "depth", "web_thickness", "web_spacing",
+    "slab_width", "slab_thickness", "root_thickness", "edge_thickness", "depth", "web_thickness",
+    "web_spacing",
     "bottom_spacing", "bottom_thickness", "diaphragm_thickness", "inner_diaphragms",
     "inner_diaphragm_thickness", "youngs_modulus", "poisson_ratio",
     "density", "track_mass", "edge_mass",
@@ -60,14 +65,26 @@ def deck_file(best: dict) -> str:
     box = candidates.box_of(best["values"], best["inner_diaphragms"])
     lines = [f"{name} = {getattr(box, name)!r}" for name in _WRITTEN]
     first = box.bearings[0]
-    return DECK.format(name=box.name, dimensions="\n".join(lines) + "\n", spring=first.stiffness["x"], drop=first.drop)
+    return DECK.format(
+        name=box.name,
+        dimensions="\n".join(lines) + "\n",
+        spring=first.stiffness["x"],
+        drop=first.drop,
+    )
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--starts", type=int, default=6, help="random starts for each number of inner diaphragms (6)")
+    parser.add_argument(
+        "--starts",
+        type=int,
+        default=6,
+        help="random starts for each number of inner diaphragms (6)",
+    )
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--to", type=Path, default=shelf.data_root(), help="folder of data to write to")
+    parser.add_argument(
+        "--to", type=Path, default=shelf.data_root(), help="folder of data to write to"
+    )
     options = parser.parse_args()
     begin = time.monotonic()
 
@@ -82,7 +99,10 @@ def main() -> None:
         (options.to / folder).mkdir(parents=True, exist_ok=True)
         (options.to / folder / name).write_text(content, encoding="utf-8")
     best = result["best"]
-    progress(f"stored: {best['rms_first_ten_percent']:.2f} % over the first ten, {best['mass'] / 1e3:.2f} t/m")
+    progress(
+        f"stored: {best['rms_first_ten_percent']:.2f} % over the first ten, "
+        f"{best['mass'] / 1e3:.2f} t/m"
+    )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,7 @@
-"""Run every static check; `--fix` mends first what can be mended by itself. Exit code 1 if anything is found."""
+"""Run every static check; `--fix` mends first what can be mended by itself.
+
+Exit code 1 if anything is found.
+"""
 
 import subprocess
 import sys
@@ -11,7 +14,9 @@ CHECKS = (["ruff", "check"], ["ruff", "format", "--check"], ["lint-imports", "--
 
 def run(program, *arguments):
     """Run a program that stands beside this Python, in the environment."""
-    return subprocess.run([Path(sys.executable).with_name(program), *arguments], cwd=ROOT).returncode
+    return subprocess.run(
+        [Path(sys.executable).with_name(program), *arguments], cwd=ROOT
+    ).returncode
 
 
 def main(arguments):

@@ -1,12 +1,13 @@
 """Execute notebooks and store their outputs. This is the only way outputs get into the repository.
 
-    python tools/notebooks.py                       all numbered notebooks and the template
-    python tools/notebooks.py notebooks/03_x.ipynb  only those named
-    python tools/notebooks.py --check               only list notebooks that are stored without outputs
+    python tools/notebooks.py                       all numbered notebooks and the template python
+    tools/notebooks.py notebooks/03_x.ipynb  only those named python tools/notebooks.py --check
+    only list notebooks that are stored without outputs
 
-Each notebook runs from top to bottom in a fresh kernel, in its own folder. What is stored depends on nothing but the
-cells and the installed versions: no times, no widget state, no kernel details. Unchanged cells give an identical file.
-A notebook that raises, warns, or prints a memory address is refused, and its file stays as it was.
+Each notebook runs from top to bottom in a fresh kernel, in its own folder. What is stored depends
+on nothing but the cells and the installed versions: no times, no widget state, no kernel details.
+Unchanged cells give an identical file. A notebook that raises, warns, or prints a memory address is
+refused, and its file stays as it was.
 """
 
 import os
@@ -27,8 +28,11 @@ ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "notebooks"
 TIMEOUT = 120  # s, for one cell
 
-# Stands where a panel would be: rendered pages cannot show a living one, and the figure above it shows its first state.
-PANEL_TEXT = "Interactive panel: open this notebook in JupyterLab and run this cell to move its sliders."
+# Stands where a panel would be: rendered pages cannot show a living one, and the figure above it
+# shows its first state.
+PANEL_TEXT = (
+    "Interactive panel: open this notebook in JupyterLab and run this cell to move its sliders."
+)
 WIDGET = "application/vnd.jupyter.widget-"
 
 METADATA = {
@@ -48,7 +52,8 @@ def find(folder=FOLDER):
 
 
 def execute(path):
-    """Run a notebook file in a fresh kernel; return the notebook with tidy outputs, or raise Refused."""
+    """Run a notebook file in a fresh kernel; return the notebook with tidy outputs, or raise
+    Refused."""
     notebook = nbformat.read(path, as_version=4)
     for cell in notebook.cells:
         if cell.cell_type == "code":
@@ -72,7 +77,8 @@ def execute(path):
 
 
 def tidy(notebook):
-    """Leave nothing in the notebook that changes from run to run or that only one program understands."""
+    """Leave nothing in the notebook that changes from run to run or that only one program
+    understands."""
     notebook.metadata = nbformat.from_dict(METADATA)
     notebook.nbformat, notebook.nbformat_minor = 4, 5
     known = set()
@@ -91,7 +97,9 @@ def tidy_outputs(outputs):
     for output in outputs:
         previous = tidied[-1] if tidied else {}
         if output.output_type == "stream" and previous.get("name") == output.name:
-            previous["text"] += output.text  # how a print is cut into messages is a matter of timing
+            previous["text"] += (
+                output.text
+            )  # how a print is cut into messages is a matter of timing
             continue
         if "data" in output:
             if any(mime.startswith(WIDGET) for mime in output.data):
@@ -104,10 +112,13 @@ def tidy_outputs(outputs):
 
 
 def with_few_colours(png):
-    """The same picture with 128 colours, base64: line drawings need no more, and the file shrinks to a third."""
+    """The same picture with 128 colours, base64: line drawings need no more, and the file shrinks
+    to a third."""
     small = BytesIO()
     with Image.open(BytesIO(b64decode(png))) as picture:
-        picture.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(small, "png", optimize=True)
+        picture.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(
+            small, "png", optimize=True
+        )
     return b64encode(small.getvalue()).decode("ascii") + "\n"
 
 
@@ -132,7 +143,8 @@ def without_colour(text):
 
 
 def store(path):
-    """Execute one notebook and write it if it changed; return a line for the reader and whether it went well."""
+    """Execute one notebook and write it if it changed; return a line for the reader and whether it
+    went well."""
     start = time.monotonic()
     try:
         notebook = execute(path)
@@ -146,7 +158,11 @@ def store(path):
         beside.write_text(text, encoding="utf-8", newline="\n")
         os.replace(beside, path)
     seconds = time.monotonic() - start
-    return f"{'stored' if changed else 'unchanged':10} {path.name}  ({seconds:.1f} s, {len(text) / 1000:.0f} kB)", True
+    return (
+        f"{'stored' if changed else 'unchanged':10} {path.name}  ({seconds:.1f} s, "
+        f"{len(text) / 1000:.0f} kB)",
+        True,
+    )
 
 
 def without_outputs(path):
@@ -166,7 +182,10 @@ def main(arguments):
         sys.exit("no such notebook: " + ", ".join(path.name for path in missing))
     if check:
         bare = [path.name for path in paths if without_outputs(path)]
-        print("\n".join(f"no outputs {name}" for name in bare) or f"{len(paths)} notebooks stored with outputs")
+        print(
+            "\n".join(f"no outputs {name}" for name in bare)
+            or f"{len(paths)} notebooks stored with outputs"
+        )
         sys.exit(bool(bare))
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     went_well = True

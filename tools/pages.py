@@ -1,4 +1,5 @@
-"""Write the tables of docs/case.md that come from the types of case files; `--check` only says whether they are right."""
+"""Write the tables of docs/case.md that come from the types of case files; `--check` only says
+whether they are right."""
 
 import sys
 from pathlib import Path

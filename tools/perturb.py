@@ -3,8 +3,9 @@
     python tools/perturb.py                              all notebooks
     python tools/perturb.py notebooks/03_x.ipynb -q ...  these arguments for pytest instead
 
-A printed figure that changes with the eleventh digit of its input is printed with too many digits, or hangs on a comparison
-of two numbers that happen to be equal. The copy of `data/` is temporary; RAILBRIDGE_DATA points the package to it.
+A printed figure that changes with the eleventh digit of its input is printed with too many digits,
+or hangs on a comparison of two numbers that happen to be equal. The copy of `data/` is temporary;
+RAILBRIDGE_DATA points the package to it.
 """
 
 import os
@@ -34,7 +35,11 @@ def perturbed(text, toml, chance):
         if not toml and parameters:
             # A parameter table: symbol, name, value, ...
             head, name, value, rest = line.split(",", 3)
-            moved = value if head == "symbol" else repr(float(value) * (1 + chance.choice((-SIZE, SIZE))))
+            moved = (
+                value
+                if head == "symbol"
+                else repr(float(value) * (1 + chance.choice((-SIZE, SIZE))))
+            )
             return ",".join([head, name, moved, rest])
         code, hash_, comment = line.partition("#")
         parts = code.split('"')
@@ -60,7 +65,11 @@ def main(arguments):
         perturb(ROOT / "data", data)
         environment = {**os.environ, "RAILBRIDGE_DATA": str(data)}
         chosen = arguments or ["notebooks", "-q", "-n", "2", "--dist", "loadscope"]
-        sys.exit(subprocess.run([sys.executable, "-m", "pytest", *chosen], cwd=ROOT, env=environment).returncode)
+        sys.exit(
+            subprocess.run(
+                [sys.executable, "-m", "pytest", *chosen], cwd=ROOT, env=environment
+            ).returncode
+        )
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
-"""Build the static site in build/site: all notebooks as they are stored, the documents, the functions, a gallery.
+"""Build the static site in build/site: all notebooks as they are stored, the documents, the
+functions, a gallery.
 
-    python tools/site.py            then open build/site/index.html; no server and no network are needed
+    python tools/site.py            then open build/site/index.html; no server and no network are
+    needed
 
 Nothing is executed. A warning of Sphinx is an error.
 """
@@ -24,7 +26,19 @@ def main(arguments):
         sys.exit(f"missing: {', '.join(missing)}. Install them with pip install -e .[site]")
     lay_out()
     shutil.rmtree(SITE, ignore_errors=True)
-    command = [sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "--keep-going", "-E", "-j", "2"]
+    command = [
+        sys.executable,
+        "-m",
+        "sphinx",
+        "-b",
+        "html",
+        "-q",
+        "-W",
+        "--keep-going",
+        "-E",
+        "-j",
+        "2",
+    ]
     command += ["-c", ROOT / "docs" / "site", "-d", ROOT / "build" / "site-doctrees", PAGES, SITE]
     code = subprocess.run(command).returncode
     print("the site has faults: see above" if code else SITE / "index.html")

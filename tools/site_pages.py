@@ -1,7 +1,9 @@
-"""Pages of the static site, laid out as in the repository so that links between them hold; tools/site.py builds it from them.
+"""Pages of the static site, laid out as in the repository so that links between them hold;
+tools/site.py builds it from them.
 
-Notebooks are taken as they are stored. A caption becomes a place that can be linked to, a picture gets its caption as text for
-those who do not see it, and a panel, which needs a running program, becomes a sentence.
+Notebooks are taken as they are stored. A caption becomes a place that can be linked to, a picture
+gets its caption as text for those who do not see it, and a panel, which needs a running program,
+becomes a sentence.
 """
 
 import inspect
@@ -96,16 +98,23 @@ def plain(markdown):
 def caption_below(cells, i):
     """Match of the caption in the text cell that follows cell i, or None."""
     below = cells[i + 1] if i + 1 < len(cells) else None
-    return CAPTION.match(below.source) if below is not None and below.cell_type == "markdown" else None
+    return (
+        CAPTION.match(below.source) if below is not None and below.cell_type == "markdown" else None
+    )
 
 
 def pictures(cell):
     """PNG images among a cell's outputs, in order."""
-    return [b64decode(out.data["image/png"]) for out in cell.get("outputs", []) if "image/png" in out.get("data", {})]
+    return [
+        b64decode(out.data["image/png"])
+        for out in cell.get("outputs", [])
+        if "image/png" in out.get("data", {})
+    ]
 
 
 def figures(notebook, name):
-    """Figures of a notebook that have a caption; the last picture of a cell is the one that the caption is about."""
+    """Figures of a notebook that have a caption; the last picture of a cell is the one that the
+    caption is about."""
     found = []
     for i, cell in enumerate(notebook.cells):
         caption = caption_below(notebook.cells, i)
@@ -116,8 +125,11 @@ def figures(notebook, name):
 
 
 def page_of(notebook, name):
-    """The notebook as it goes to the site: captions that can be linked to, pictures with text, sentences for panels."""
-    notebook.metadata = nbformat.from_dict(METADATA)  # names the language, also of a notebook that was never stored
+    """The notebook as it goes to the site: captions that can be linked to, pictures with text,
+    sentences for panels."""
+    notebook.metadata = nbformat.from_dict(
+        METADATA
+    )  # names the language, also of a notebook that was never stored
     shown = {figure.number: figure for figure in figures(notebook, name)}
     for i, cell in enumerate(notebook.cells):
         if cell.cell_type == "markdown":
@@ -150,8 +162,13 @@ def thumbnail(png):
 
 
 def gallery(shown, titles):
-    """Markdown of the gallery: one picture after the other, by notebook, each leading to its place."""
-    lines = ["# Gallery", "", "All figures of the notebooks, as they are stored. A picture leads to its place.", ""]
+    """Markdown of the gallery: one picture after the other, by notebook, with links."""
+    lines = [
+        "# Gallery",
+        "",
+        "All figures of the notebooks, as they are stored. A picture leads to its place.",
+        "",
+    ]
     for notebook in dict.fromkeys(figure.notebook for figure in shown):
         lines += [f"## {titles[notebook]}", "", "::::{container} rb-gallery"]
         for figure in (figure for figure in shown if figure.notebook == notebook):
@@ -181,15 +198,29 @@ def api_pages():
 
     modules = {}
     for name in rb.__all__:
-        modules.setdefault(sys.modules[getattr(rb, name).__module__], []).append(f"railbridge.{name}")
+        modules.setdefault(sys.modules[getattr(rb, name).__module__], []).append(
+            f"railbridge.{name}"
+        )
     lazy = [getattr(rb, name) for name in dir(rb) if name not in rb.__all__]
     for module in lazy:
         modules[module] = [f"{module.__name__}.{name}" for name in module.__all__]
-    pages = {short(module): api_page(module, modules[module]) for module in sorted(modules, key=short)}
+    pages = {
+        short(module): api_page(module, modules[module]) for module in sorted(modules, key=short)
+    }
     title = "Functions and classes"
-    lines = [title, "=" * len(title), "", "``import railbridge as rb`` gives all that stands here without a module's name;"]
-    lines += ["``rb.plots``, ``rb.panels`` and the like are loaded when first used. Everything is SI.", ""]
-    lines += [f"* :doc:`{short(module)}` - {first_line(module)}" for module in sorted(modules, key=short)]
+    lines = [
+        title,
+        "=" * len(title),
+        "",
+        "``import railbridge as rb`` gives all that stands here without a module's name;",
+    ]
+    lines += [
+        "``rb.plots``, ``rb.panels`` and the like are loaded when first used. Everything is SI.",
+        "",
+    ]
+    lines += [
+        f"* :doc:`{short(module)}` - {first_line(module)}" for module in sorted(modules, key=short)
+    ]
     lines += ["", ".. toctree::", "   :hidden:", "", *(f"   {name}" for name in pages), ""]
     return {**pages, "index": "\n".join(lines)}
 
@@ -197,7 +228,15 @@ def api_pages():
 def api_page(module, names):
     """One module's page: its own first line, then each name with its docstring."""
     title = short(module)
-    lines = [title, "=" * len(title), "", first_line(module), "", f".. currentmodule:: {module.__name__}", ""]
+    lines = [
+        title,
+        "=" * len(title),
+        "",
+        first_line(module),
+        "",
+        f".. currentmodule:: {module.__name__}",
+        "",
+    ]
     for name in names:
         owner, _, last = name.rpartition(".")
         kind = directive(getattr(sys.modules[owner], last))
@@ -230,16 +269,24 @@ def lay_out(pages=PAGES):
         (pages / "api" / f"{name}.rst").write_text(text, encoding="utf-8")
     # What the pages link to.
     for name in ("data", "docs", "tests", "tools"):
-        shutil.copytree(ROOT / name, pages / name, ignore=shutil.ignore_patterns("site", "__pycache__", "browser"))
+        shutil.copytree(
+            ROOT / name,
+            pages / name,
+            ignore=shutil.ignore_patterns("site", "__pycache__", "browser"),
+        )
     for name in (*DOCUMENTS, "LICENSE", "LICENSE-notebooks.md", "CITATION.cff"):
         shutil.copy(ROOT / name, pages)
     for path in (*pages.glob("*.md"), *pages.glob("docs/*.md")):
         path.write_text(homeward(path.read_text(encoding="utf-8")), encoding="utf-8")
-    documents = sorted(path.relative_to(pages).with_suffix("").as_posix() for path in (pages / "docs").glob("*.md"))
+    documents = sorted(
+        path.relative_to(pages).with_suffix("").as_posix() for path in (pages / "docs").glob("*.md")
+    )
     parts = {
         "notebooks": "\n".join(f"notebooks/{name}" for name in titles),
         "documents": "\n".join(documents),
-        "more": "\n".join(name.removesuffix(".md") for name in (*DOCUMENTS, "LICENSE-notebooks.md")),
+        "more": "\n".join(
+            name.removesuffix(".md") for name in (*DOCUMENTS, "LICENSE-notebooks.md")
+        ),
     }
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     (pages / "index.md").write_text(readme + INDEX_TAIL % parts, encoding="utf-8")

@@ -1,4 +1,7 @@
-"""How Sphinx turns the pages that tools/site.py has laid out into the site. Nothing is executed, nothing is fetched."""
+"""How Sphinx turns the pages that tools/site.py has laid out into the site.
+
+Nothing is executed, nothing is fetched.
+"""
 
 from dataclasses import is_dataclass
 from importlib.metadata import version as version_of
@@ -8,7 +11,12 @@ from pathlib import Path
 from docutils import nodes
 
 HERE = Path(__file__).parent
-MATHJAX = Path(find_spec("sphinx-mathjax-offline").origin).parent / "static" / "mathjax" / "tex-svg-full.js"
+MATHJAX = (
+    Path(find_spec("sphinx-mathjax-offline").origin).parent
+    / "static"
+    / "mathjax"
+    / "tex-svg-full.js"
+)
 
 project = "railbridge"
 author = "The railbridge contributors"
@@ -47,13 +55,17 @@ html_copy_source = False
 html_show_sphinx = False
 html_theme_options = {"top_of_page_buttons": []}
 
-# One file that draws formulas as SVG and fetches nothing: it works from disk. Its menu would fetch more files.
+# One file that draws formulas as SVG and fetches nothing: it works from disk. Its menu would fetch
+# more files.
 mathjax_path = MATHJAX.name
 mathjax3_config = {"options": {"enableMenu": False}}
 
 
 def keep_formulas_whole(app, doctree):
-    """Hand formulas on as they are written: Sphinx would put those of several lines where no number may stand."""
+    """Hand formulas on as they are written.
+
+    Sphinx would put those of several lines where no number may stand.
+    """
     for formula in doctree.findall(nodes.math_block):
         if not formula.get("no-wrap"):
             formula.children = [nodes.Text(f"\\[{formula.astext()}\\]")]

@@ -27,13 +27,15 @@ from .guideways import Guideway, PiecewiseCubic
 from .response import SampledModes, sampled_modes
 
 __all__ = [
-    "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line", "ModesOnly", "RATIO", "Recovery",
+    "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
+    "ModesOnly", "RATIO", "Recovery",
     "checked_damping", "damping_ratios", "rayleigh", "rayleigh_ratio",
 ]  # fmt: skip
 
 SECTION_QUANTITIES = {
     "displacement_y": "m", "displacement_z": "m", "rotation_x": "rad",
-    "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m", "shear_vertical": "N", "shear_lateral": "N",
+    "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m", "shear_vertical": "N",
+    "shear_lateral": "N",
 }  # fmt: skip
 REACTION_QUANTITIES = {"force_x": "N", "force_y": "N", "force_z": "N", "moment_x": "N m"}
 """What a deck recovers at a section and at a bearing line, with units."""
@@ -254,7 +256,7 @@ class Deck(Guideway):
         return pd.DataFrame(columns, index=pd.RangeIndex(1, len(self.mode_names) + 1, name="mode"))
 
     def sampled(self, time_step: float) -> SampledModes:
-        """Return what gives modal coordinates and velocities from modal forces, at a time step (s)."""
+        """What gives modal coordinates and velocities from modal forces, at a time step (s)."""
         return sampled_modes(2 * np.pi * self.frequencies_hz, self.damping_ratios, time_step)
 
     def acceleration(

@@ -69,9 +69,7 @@ class InputError(ValueError):
             return self
         head = self.field.partition(".")[0].partition("[")[0]
         field = (names or {}).get(head, head) + self.field[len(head) :]
-        return InputError(
-            joined(path, field), self.value, self.allowed, self.remedy, source
-        )
+        return InputError(joined(path, field), self.value, self.allowed, self.remedy, source)
 
 
 def joined(path: str, field: str) -> str:

@@ -1,4 +1,4 @@
-"""The door for ``python -m railbridge.paper``; everything stands in `railbridge.validation.paper`."""
+"""The door for ``python -m railbridge.paper``; see `railbridge.validation.paper`."""
 
 from .validation.paper import main
 

@@ -34,7 +34,9 @@ class Spectrum:
         """Return a pandas DataFrame with one row a line."""
         import pandas as pd
 
-        return pd.DataFrame({"frequency (Hz)": self.frequency, f"amplitude ({self.unit})": self.amplitude})
+        return pd.DataFrame(
+            {"frequency (Hz)": self.frequency, f"amplitude ({self.unit})": self.amplitude}
+        )
 
     @property
     def peak(self) -> tuple[float, float]:
@@ -43,11 +45,15 @@ class Spectrum:
         return float(self.frequency[i]), float(self.amplitude[i])
 
 
-def amplitude_spectrum(signal: np.ndarray, time_step: float, bins: int = BINS, unit: str = "N") -> Spectrum:
-    """Return the one-sided amplitude spectrum of a record, mean removed, no window function, no padding.
+def amplitude_spectrum(
+    signal: np.ndarray, time_step: float, bins: int = BINS, unit: str = "N"
+) -> Spectrum:
+    """Return the one-sided amplitude spectrum of a record.
 
-    ``A_w = 2 |rfft(F - mean)| / N``: a sine of amplitude 1 with a whole number of periods in the record gives one line of
-    height 1.
+    Its mean is removed; no window function, no padding.
+
+    ``A_w = 2 |rfft(F - mean)| / N``: a sine of amplitude 1 with a whole number of periods in the
+    record gives one line of height 1.
 
     Parameters
     ----------
@@ -66,7 +72,7 @@ def amplitude_spectrum(signal: np.ndarray, time_step: float, bins: int = BINS, u
 
 
 def deviation_percent(spectrum: Spectrum, reference: Spectrum) -> float:
-    """Return how far the root sum of squares of one spectrum lies above another's, in percent (Eq. 3).
+    """Return how far one spectrum's root sum of squares lies above another's, in percent (Eq. 3).
 
     NaN where the reference is nothing but round-off beside the other, as on level track.
 

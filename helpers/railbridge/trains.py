@@ -25,7 +25,8 @@ from .tracks import FadeIn, Notch, Track
 from .vehicles import Vehicle, WheelResponse
 
 __all__ = [
-    "CONDENSED", "EXCITATIONS", "LOADS", "AnyTrain", "AxleTrain", "Car", "Condensation", "Passage", "PlacedAxle",
+    "CONDENSED", "EXCITATIONS", "LOADS", "AnyTrain", "AxleTrain", "Car", "Condensation", "Passage",
+    "PlacedAxle",
     "Train", "Wheel", "steady_forces",
 ]  # fmt: skip
 
@@ -367,9 +368,9 @@ class Train(AnyTrain):
         several = self.vehicle
         if isinstance(self.vehicle, Vehicle):
             object.__setattr__(self, "cars", 1 if self.cars is None else self.cars)
-        elif not isinstance(several, (list, tuple)) or not several:
-            raise InputError("vehicle", several, "must be a Vehicle or one Vehicle for each car")
-        elif not all(isinstance(vehicle, Vehicle) for vehicle in several):
+        elif not (isinstance(several, (list, tuple)) and several) or not all(
+            isinstance(vehicle, Vehicle) for vehicle in several
+        ):
             raise InputError("vehicle", several, "must be a Vehicle or one Vehicle for each car")
         else:
             if self.cars not in (None, len(several)):

@@ -281,7 +281,7 @@ class Vehicle:
 
     @cached_property
     def _standing(self) -> tuple[tuple[Axle, ...], tuple[Spring, ...]]:
-        """Axles, and the springs of the contacts in their order: front to back, left before right."""
+        """Axles and the springs of the contacts, from front to back, left before right."""
         rows: list[list[Spring]] = []
         for spring in sorted((s for s in self.springs if s.on_rail), key=lambda s: -s.at[0]):
             if not rows or rows[-1][0].at[0] - spring.at[0] > _BESIDE:

@@ -1,4 +1,4 @@
-"""Beams against textbook beams: frequencies, influence lines, reactions, and what holds a deck up."""
+"""Beams against textbook beams: frequencies, influence lines, reactions, what holds a deck up."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,13 @@ TWO_SPAN_DECK = TWO_SPANS.deck(12)
 
 
 def named(beam, kind):
-    return np.array([f for f, n in zip(beam.modes.frequencies_hz, beam.modes.names, strict=True) if n.startswith(kind)])
+    return np.array(
+        [
+            f
+            for f, n in zip(beam.modes.frequencies_hz, beam.modes.names, strict=True)
+            if n.startswith(kind)
+        ]
+    )
 
 
 @pytest.mark.parametrize(
@@ -36,23 +42,33 @@ def test_mode_names_count_within_each_kind():
     deck = rb.deck("viaduct36")
     expected = ["vertical bending 1", "lateral bending 1", "vertical bending 2", "torsion 1"]
     assert list(deck.mode_names[:4]) == expected
-    assert deck.frequencies_hz[[0, 1, 2, 3]] == pytest.approx([3.307, 10.46, 13.23, 14.97], rel=3e-3)
+    assert deck.frequencies_hz[[0, 1, 2, 3]] == pytest.approx(
+        [3.307, 10.46, 13.23, 14.97], rel=3e-3
+    )
     assert not any(n.startswith("axial") for n in deck.mode_names)
 
 
 def test_clamped_and_cantilever_frequencies():
     everything = ("x", "y", "z", "roll", "pitch", "yaw")
     unit = np.sqrt(EI / M) / (2 * np.pi * L**2)
-    clamped = rb.Beam("c", (L,), M, EI, bearings=(rb.Bearing(0.0, everything), rb.Bearing(L, everything)))
-    assert named(clamped, "vertical")[:3] == pytest.approx(np.array([4.730041, 7.853205, 10.995608]) ** 2 * unit, rel=1e-5)
+    clamped = rb.Beam(
+        "c", (L,), M, EI, bearings=(rb.Bearing(0.0, everything), rb.Bearing(L, everything))
+    )
+    assert named(clamped, "vertical")[:3] == pytest.approx(
+        np.array([4.730041, 7.853205, 10.995608]) ** 2 * unit, rel=1e-5
+    )
     cantilever = rb.Beam("c", (L,), M, EI, bearings=(rb.Bearing(0.0, everything),))
-    assert named(cantilever, "vertical")[:3] == pytest.approx(np.array([1.875104, 4.694091, 7.854757]) ** 2 * unit, rel=1e-5)
+    assert named(cantilever, "vertical")[:3] == pytest.approx(
+        np.array([1.875104, 4.694091, 7.854757]) ** 2 * unit, rel=1e-5
+    )
 
 
 def test_two_equal_spans_have_pinned_and_clamped_frequencies():
     beam = rb.Beam("c", (30.0, 30.0), M, EI)
     unit = np.sqrt(EI / M) / (2 * np.pi * 30.0**2)
-    assert named(beam, "vertical")[:4] == pytest.approx(np.array([np.pi, 3.926602, 2 * np.pi, 7.068583]) ** 2 * unit, rel=1e-4)
+    assert named(beam, "vertical")[:4] == pytest.approx(
+        np.array([np.pi, 3.926602, 2 * np.pi, 7.068583]) ** 2 * unit, rel=1e-4
+    )
 
 
 def test_two_unequal_spans_solve_the_characteristic_equation():
@@ -61,14 +77,21 @@ def test_two_unequal_spans_solve_the_characteristic_equation():
         return sum(1 / np.tan(k * a) - 1 / np.tanh(k * a) for a in (20.0, 30.0))
 
     k = brentq(moment, 1.001 * np.pi / 30, 0.999 * np.pi / 20)
-    assert named(TWO_SPANS, "vertical")[0] == pytest.approx(k**2 * np.sqrt(EI / M) / (2 * np.pi), rel=1e-5)
+    assert named(TWO_SPANS, "vertical")[0] == pytest.approx(
+        k**2 * np.sqrt(EI / M) / (2 * np.pi), rel=1e-5
+    )
 
 
 def test_modes_are_mass_normalised_by_quadrature():
     deck = TWO_SPAN_DECK
     x, w = np.polynomial.legendre.leggauss(400)
-    parts = [((a + b) / 2 + (b - a) / 2 * x, w * (b - a) / 2) for a, b in ((0.0, 20.0), (20.0, 50.0))]
-    gram = sum(np.einsum("k,c,kmc,knc->mn", dx, [M, M, INERTIA], deck.shapes(at), deck.shapes(at)) for at, dx in parts)
+    parts = [
+        ((a + b) / 2 + (b - a) / 2 * x, w * (b - a) / 2) for a, b in ((0.0, 20.0), (20.0, 50.0))
+    ]
+    gram = sum(
+        np.einsum("k,c,kmc,knc->mn", dx, [M, M, INERTIA], deck.shapes(at), deck.shapes(at))
+        for at, dx in parts
+    )
     assert gram == pytest.approx(np.eye(12), abs=1e-6)
 
 
@@ -79,7 +102,9 @@ def triangle(x, at):
 @settings(max_examples=40)
 @given(at=st.floats(0.0, L), loads=st.lists(st.floats(0.0, L), min_size=1, max_size=6))
 def test_influence_lines_of_a_simple_beam(at, loads):
-    x = np.array([p for p in loads if abs(p - at) > 1e-6] or [L / 3 if abs(at - L / 3) > 1 else L / 2])
+    x = np.array(
+        [p for p in loads if abs(p - at) > 1e-6] or [L / 3 if abs(at - L / 3) > 1 else L / 2]
+    )
     recovery = SIMPLE_DECK.recovery
 
     def line(quantity):
@@ -90,7 +115,9 @@ def test_influence_lines_of_a_simple_beam(at, loads):
     assert line("moment_vertical")[:, 1] == pytest.approx(triangle(x, at), abs=1e-6)
     assert line("moment_vertical")[:, [0, 2]] == zero
     assert line("moment_lateral")[:, 0] == pytest.approx(-triangle(x, at), abs=1e-6)
-    face = max(at, 1e-9)  # shear on the face just before the section; at the very start just after it
+    face = max(
+        at, 1e-9
+    )  # shear on the face just before the section; at the very start just after it
     shear = np.where(x < face, -x / L, 1 - x / L)
     assert line("shear_vertical")[:, 1] == pytest.approx(shear, abs=1e-6)
     assert line("shear_lateral")[:, 0] == pytest.approx(shear, abs=1e-6)
@@ -107,18 +134,28 @@ def test_a_section_beside_a_node_is_as_good_as_any(x):
     line = SIMPLE_DECK.recovery.section("moment_vertical", x)
     assert line.self_weight == pytest.approx(-M * 9.81 * x * (L - x) / 2, rel=1e-9)
     # Modal moment: M_y = -EI phi'' of the first sine.
-    assert line.modal[0] == pytest.approx(EI * (np.pi / L) ** 2 * np.sqrt(2 / M / L) * np.sin(np.pi * x / L), rel=1e-6)
+    assert line.modal[0] == pytest.approx(
+        EI * (np.pi / L) ** 2 * np.sqrt(2 / M / L) * np.sin(np.pi * x / L), rel=1e-6
+    )
 
 
 def test_self_weight():
     w = M * 9.81
     recovery = SIMPLE_DECK.recovery
-    assert recovery.section("displacement_z", L / 2).self_weight == pytest.approx(-5 * w * L**4 / 384 / EI, rel=1e-6)
-    assert recovery.section("shear_vertical", 9.0).self_weight == pytest.approx(-w * L / 4, rel=1e-6)
-    assert [recovery.reaction("force_z", x).self_weight for x in (0.0, L)] == pytest.approx([w * L / 2] * 2, rel=1e-9)
+    assert recovery.section("displacement_z", L / 2).self_weight == pytest.approx(
+        -5 * w * L**4 / 384 / EI, rel=1e-6
+    )
+    assert recovery.section("shear_vertical", 9.0).self_weight == pytest.approx(
+        -w * L / 4, rel=1e-6
+    )
+    assert [recovery.reaction("force_z", x).self_weight for x in (0.0, L)] == pytest.approx(
+        [w * L / 2] * 2, rel=1e-9
+    )
     assert recovery.section("moment_lateral", 9.0).self_weight == pytest.approx(0.0, abs=1e-6 * w)
     # -28.82 mm for the shipped deck, whatever its mass.
-    assert rb.deck("viaduct36").recovery.section("displacement_z", 18.0).self_weight == pytest.approx(-28.82e-3, rel=1e-3)
+    assert rb.deck("viaduct36").recovery.section(
+        "displacement_z", 18.0
+    ).self_weight == pytest.approx(-28.82e-3, rel=1e-3)
 
 
 def test_self_weight_of_two_spans():
@@ -128,7 +165,9 @@ def test_self_weight_of_two_spans():
     recovery = TWO_SPAN_DECK.recovery
     assert recovery.section("moment_vertical", 20.0).self_weight == pytest.approx(hogging, rel=1e-9)
     reactions = [w * 10 - hogging / 20, w * 25 + hogging * (1 / 20 + 1 / 30), w * 15 - hogging / 30]
-    assert [recovery.reaction("force_z", x).self_weight for x in (0.0, 20.0, 50.0)] == pytest.approx(reactions, rel=1e-9)
+    assert [
+        recovery.reaction("force_z", x).self_weight for x in (0.0, 20.0, 50.0)
+    ] == pytest.approx(reactions, rel=1e-9)
 
 
 @settings(max_examples=40)
@@ -136,14 +175,20 @@ def test_self_weight_of_two_spans():
 def test_two_spans_are_in_equilibrium(x, at):
     recovery = TWO_SPAN_DECK.recovery
     load = np.array([x])
-    reactions = {s: recovery.reaction("force_z", s).influence(load)[0, 0, 1] for s in (0.0, 20.0, 50.0)}
+    reactions = {
+        s: recovery.reaction("force_z", s).influence(load)[0, 0, 1] for s in (0.0, 20.0, 50.0)
+    }
     assert sum(reactions.values()) == pytest.approx(-1.0, abs=1e-9)
     assert sum(s * r for s, r in reactions.items()) == pytest.approx(-x, abs=1e-7)
     if min(abs(x - at), abs(at - 20.0)) > 1e-6:
         moment = sum(r * (at - s) for s, r in reactions.items() if s < at) + max(at - x, 0.0)
         shear = -sum(r for s, r in reactions.items() if s < at) - (1.0 if x < at else 0.0)
-        assert recovery.section("moment_vertical", at).influence(load)[0, 0, 1] == pytest.approx(-moment, abs=1e-7)
-        assert recovery.section("shear_vertical", at).influence(load)[0, 0, 1] == pytest.approx(shear, abs=1e-7)
+        assert recovery.section("moment_vertical", at).influence(load)[0, 0, 1] == pytest.approx(
+            -moment, abs=1e-7
+        )
+        assert recovery.section("shear_vertical", at).influence(load)[0, 0, 1] == pytest.approx(
+            shear, abs=1e-7
+        )
 
 
 def test_displacement_influence_is_symmetric():
@@ -158,9 +203,15 @@ def test_modal_values_add_up_to_the_influence_line():
     # sum_m S_m phi_m(x) / omega_m^2 tends to the influence line.
     deck = SIMPLE.deck(60)
     x = np.array([5.0, 14.0, 29.0])
-    for quantity, component, rel in [("displacement_z", 1, 1e-4), ("moment_vertical", 1, 0.02), ("torsion", 2, 0.03)]:
+    for quantity, component, rel in [
+        ("displacement_z", 1, 1e-4),
+        ("moment_vertical", 1, 0.02),
+        ("torsion", 2, 0.03),
+    ]:
         line = deck.recovery.section(quantity, 11.0)
-        modal = deck.shapes(x)[:, :, component] @ (line.modal / (2 * np.pi * deck.frequencies_hz) ** 2)
+        modal = deck.shapes(x)[:, :, component] @ (
+            line.modal / (2 * np.pi * deck.frequencies_hz) ** 2
+        )
         exact = line.influence(x)[:, 0, component]
         assert modal == pytest.approx(exact, abs=rel * np.abs(exact).max())
 
@@ -191,8 +242,10 @@ def test_section_file_and_stiffnesses_make_the_same_deck():
     e, g = 35e9, 35e9 / 2.4
     common = {"length": 36.0, "damping": {"ratio": 0.03, "frequencies_hz": [3.307, 16.30]}}
     stiff = rb.deck_from_table("a", {
-        **common, "mass": 12e3, "bending_stiffness_vertical": e * 2.553, "bending_stiffness_lateral": e * 25.53,
-        "torsional_stiffness": g * 5.59, "axial_stiffness": e * 4.8, "polar_inertia": 2500 * (2.553 + 25.53),
+        **common, "mass": 12e3, "bending_stiffness_vertical": e * 2.553,
+        "bending_stiffness_lateral": e * 25.53,
+        "torsional_stiffness": g * 5.59, "axial_stiffness": e * 4.8,
+        "polar_inertia": 2500 * (2.553 + 25.53),
     })  # fmt: skip
     shipped = rb.deck("viaduct36")
     assert stiff.frequencies_hz == pytest.approx(shipped.frequencies_hz, rel=1e-12)
@@ -204,7 +257,8 @@ def test_a_very_short_span_beside_a_long_one_clamps_it(short):
     """Very short elements once spoilt the lowest frequency by a fifth, or made it no number."""
     clamped = 3.926602**2 * np.sqrt(EI / M) / (2 * np.pi * 60.0**2)
     frequency = named(rb.Beam("b", (short, 60.0), M, EI), "vertical")[0]
-    # The short span gives way like a spring 3 E I / short, which is as good as a third of it more length.
+    # The short span gives way like a spring 3 E I / short, which is as good as a third of it more
+    # length.
     assert frequency == pytest.approx(clamped * (1 + short / 3 / 60.0) ** -2, rel=2e-5)
 
 
@@ -222,7 +276,9 @@ def test_bearings_and_spans_too_close_are_refused():
     with pytest.raises(rb.InputError, match=r"bearings\[3\]\.x = 36.0: is given to two"):
         rb.Beam("b", (L,), M, EI, bearings=(*ends, rb.Bearing(L, ("z", "pitch"))))
     with pytest.raises(rb.InputError, match=r"behind x = 20 m is too short"):
-        rb.Beam("b", (L,), M, EI, bearings=(*ends, rb.Bearing(20.0, ("z",)), rb.Bearing(20.001, ("z",))))
+        rb.Beam(
+            "b", (L,), M, EI, bearings=(*ends, rb.Bearing(20.0, ("z",)), rb.Bearing(20.001, ("z",)))
+        )
     with pytest.raises(rb.InputError, match=r"spans = .*0.001 m behind x = 0 m is too short"):
         rb.Beam("b", (1e-3, 1000.0), M, EI)
 

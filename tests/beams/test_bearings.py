@@ -1,4 +1,5 @@
-"""Bearings off the axis, elastic ones and simple spans, against a frame program of its own and hand formulas."""
+"""Bearings off the axis, elastic ones and simple spans, against a frame program of its own and hand
+formulas."""
 
 from dataclasses import replace
 
@@ -25,28 +26,47 @@ def deck_on(*bearings, length=L, **more):
 
 def frame_of(beam, count=72):
     springs = [
-        (b.x, b.y, b.z, {FIXITIES.index(f): b.stiffness.get(f, RIGID) for f in (*b.fixed, *b.stiffness)}) for b in beam.bearings
+        (
+            b.x,
+            b.y,
+            b.z,
+            {FIXITIES.index(f): b.stiffness.get(f, RIGID) for f in (*b.fixed, *b.stiffness)},
+        )
+        for b in beam.bearings
     ]
     return Frame(
-        beam.length, count, EA, EIZ, EI, GJ, M, INERTIA, beam.shear_stiffness_lateral, beam.shear_stiffness_vertical,
-        beam.rotary_inertia_lateral or 0.0, beam.rotary_inertia_vertical or 0.0, beam.centroid_height, springs,
+        beam.length, count, EA, EIZ, EI, GJ, M, INERTIA, beam.shear_stiffness_lateral,
+        beam.shear_stiffness_vertical,
+        beam.rotary_inertia_lateral or 0.0, beam.rotary_inertia_vertical or 0.0,
+        beam.centroid_height, springs,
     )  # fmt: skip
 
 
 @st.composite
 def arrangements(draw):
-    """Two or three lines of two bearings, anywhere; lengthwise and sideways held at one of them at least."""
+    """Two or three lines of two bearings, anywhere; lengthwise and sideways held at one of them at
+    least."""
     lines = draw(st.sampled_from([(0.0, 36.0), (4.0, 30.0), (0.0, 16.0, 36.0), (2.5, 33.5)]))
     height = draw(st.floats(-2.0, 0.5))
     bearings = []
     for i, x in enumerate(lines):
         half = draw(st.floats(0.5, 3.0))
         for y in (half, -half):
-            holds = {"z"} | ({"x", "y"} if (i, y) == (0, half) else set()) | ({"y"} if (i, y) == (1, half) else set())
+            holds = (
+                {"z"}
+                | ({"x", "y"} if (i, y) == (0, half) else set())
+                | ({"y"} if (i, y) == (1, half) else set())
+            )
             holds |= set(draw(st.lists(st.sampled_from(FIXITIES), max_size=2)))
             soft = {f: draw(st.floats(8.0, 11.0)) for f in sorted(holds) if draw(st.booleans())}
             bearings.append(
-                rb.Bearing(x, tuple(sorted(holds - set(soft))), y, height, {f: 10.0**power for f, power in soft.items()})
+                rb.Bearing(
+                    x,
+                    tuple(sorted(holds - set(soft))),
+                    y,
+                    height,
+                    {f: 10.0**power for f, power in soft.items()},
+                )
             )
     shear = draw(st.booleans())
     return deck_on(
@@ -67,9 +87,15 @@ def test_frequencies_are_those_of_a_frame_program(beam):
 
 
 @settings(max_examples=15)
-@given(beam=arrangements(), x=st.integers(0, 72), force=st.tuples(*[st.floats(-1.0, 1.0)] * 3), at=st.integers(1, 71))
+@given(
+    beam=arrangements(),
+    x=st.integers(0, 72),
+    force=st.tuples(*[st.floats(-1.0, 1.0)] * 3),
+    at=st.integers(1, 71),
+)
 def test_forces_and_displacements_are_those_of_a_frame_program(beam, x, force, at):
-    """Elements are exact in statics, so only the very stiff springs of the other program differ from rigid bearings."""
+    """Elements are exact in statics, so only the very stiff springs of the other program differ
+    from rigid bearings."""
     x, at, load = x / 2, at / 2, np.array([1e5, 1e5, 3e5]) * force
     frame, recovery = frame_of(beam), beam.deck(3).recovery
     moved, forces = frame.under(x, [0.0, load[0], load[1], load[2], 0.0, 0.0])
@@ -80,7 +106,9 @@ def test_forces_and_displacements_are_those_of_a_frame_program(beam, x, force, a
 
     for quantity, place in [("displacement_y", 1), ("displacement_z", 2), ("rotation_x", 3)]:
         theirs = moved[frame.at(at)][place]
-        assert value(recovery.section(quantity, at)) == pytest.approx(theirs, abs=2e-5 * np.abs(moved).max() + 20 * size / RIGID)
+        assert value(recovery.section(quantity, at)) == pytest.approx(
+            theirs, abs=2e-5 * np.abs(moved).max() + 20 * size / RIGID
+        )
     total = np.zeros(3)
     for i, b in enumerate(beam.bearings, start=1):
         for quantity, direction in QUANTITIES.items():
@@ -88,7 +116,9 @@ def test_forces_and_displacements_are_those_of_a_frame_program(beam, x, force, a
             assert (line is None) == (FIXITIES[direction] not in b.held)
             if line is not None:
                 ours = value(line)
-                assert ours == pytest.approx(forces[i - 1, direction], abs=1e-5 * size * (1 if direction < 3 else 10))
+                assert ours == pytest.approx(
+                    forces[i - 1, direction], abs=1e-5 * size * (1 if direction < 3 else 10)
+                )
                 total += ours * (direction == np.arange(3))
     # What the bearings exert holds the load, whatever the frame says.
     assert total == pytest.approx([0.0, -load[0], -load[1]], abs=1e-6 * size)
@@ -110,7 +140,9 @@ def test_line_reactions_are_sums_of_their_bearings_about_the_axis(beam, x):
             assert value(recovery.reaction(quantity, line)) == pytest.approx(total, abs=1e-7)
         couple = np.zeros(3)
         for i, b in own:
-            sideways, up, twisting = (value(recovery.bearing(i, q)) for q in ("force_y", "force_z", "moment_x"))
+            sideways, up, twisting = (
+                value(recovery.bearing(i, q)) for q in ("force_y", "force_z", "moment_x")
+            )
             couple += twisting + b.y * up - b.z * sideways
         assert value(recovery.reaction("moment_x", line)) == pytest.approx(couple, abs=1e-6)
         twist += couple
@@ -133,16 +165,22 @@ def test_every_displacement_answers_every_load_as_it_answers_back(beam, here, th
 @settings(max_examples=6)
 @given(beam=arrangements(), node=st.integers(2, 36))
 def test_modal_values_add_up_to_the_static_lines(beam, node):
-    """With all modes of the mesh, sum S_m phi_m / omega_m^2 is the influence line of a displacement, exactly so at the nodes."""
+    """With all modes of the mesh, sum S_m phi_m / omega_m^2 is the influence line of a
+    displacement, exactly so at the nodes."""
     count = int(np.sum(beam.modes.excitable))
     deck = beam.deck(count)
     x, at = beam.mesh.nodes[[4, 19, 33]], beam.mesh.nodes[node]
-    lines = [deck.recovery.section(q, at) for q in ("displacement_y", "displacement_z", "rotation_x")]
+    lines = [
+        deck.recovery.section(q, at) for q in ("displacement_y", "displacement_z", "rotation_x")
+    ]
     for line in lines:
-        modal = np.einsum("kmc,m->kc", deck.shapes(x), line.modal / (2 * np.pi * deck.frequencies_hz) ** 2)
+        modal = np.einsum(
+            "kmc,m->kc", deck.shapes(x), line.modal / (2 * np.pi * deck.frequencies_hz) ** 2
+        )
         exact = line.influence(x)[:, 0]
         assert modal == pytest.approx(exact, abs=1e-6 * np.abs(exact).max())
-    # A spring's force follows from the mode's own shape, and all bearings together hold the mode's inertia.
+    # A spring's force follows from the mode's own shape, and all bearings together hold the mode's
+    # inertia.
     kept, lifted = np.flatnonzero(beam.modes.excitable), np.zeros(count)
     for i, b in enumerate(beam.bearings, start=1):
         for quantity, direction in QUANTITIES.items():
@@ -150,10 +188,17 @@ def test_modal_values_add_up_to_the_static_lines(beam, node):
             if freedom in b.stiffness:
                 here = beam.modes.vectors[6 * beam.mesh.node(b.x) :][:6, kept]
                 theirs = -b.stiffness[freedom] * b.row(freedom, beam.centroid_height) @ here
-                assert line.modal[:20] == pytest.approx(theirs[:20], abs=1e-5 * np.abs(theirs[:20]).max())
+                assert line.modal[:20] == pytest.approx(
+                    theirs[:20], abs=1e-5 * np.abs(theirs[:20]).max()
+                )
             lifted += line.modal if quantity == "force_z" else 0.0
     points = (np.arange(3600) + 0.5) / 100
-    inertia = M * deck.shapes(points)[:, :20, 1].sum(axis=0) / 100 * (2 * np.pi * deck.frequencies_hz[:20]) ** 2
+    inertia = (
+        M
+        * deck.shapes(points)[:, :20, 1].sum(axis=0)
+        / 100
+        * (2 * np.pi * deck.frequencies_hz[:20]) ** 2
+    )
     assert lifted[:20] == pytest.approx(-inertia, abs=1e-3 * np.abs(inertia).max())
     # Self-weight from the line itself.
     fine = (np.arange(7200) + 0.5) / 200
@@ -166,17 +211,26 @@ def test_modal_values_add_up_to_the_static_lines(beam, node):
 
 
 def test_load_on_a_deck_held_lengthwise_below_its_axis_makes_thrust():
-    """Force method, released lengthwise: the end rotations under P, e below, against e^2 L / EI + L / EA + 1 / k per unit."""
+    """Force method, released lengthwise: the end rotations under P, e below, against e^2 L / EI + L
+    / EA + 1 / k per unit."""
     e, p = 1.3, 1e6
     for spring in (None, 4e8):
-        far = rb.Bearing(L, ("z", "y", "roll"), z=-e, stiffness={"x": spring}) if spring else rb.Bearing(L, (*USUAL, "x"), z=-e)
+        far = (
+            rb.Bearing(L, ("z", "y", "roll"), z=-e, stiffness={"x": spring})
+            if spring
+            else rb.Bearing(L, (*USUAL, "x"), z=-e)
+        )
         recovery = deck_on(rb.Bearing(0.0, (*USUAL, "x"), z=-e), far).deck(3).recovery
         for a in (6.0, 18.0, 30.0):
             opening = e * p * a * (L - a) / (2 * EI)
             thrust = opening / (e**2 * L / EI + L / EA + (1 / spring if spring else 0.0))
             place = np.array([a])
-            assert -p * recovery.reaction("force_x", 0.0).influence(place)[0, 0, 1] == pytest.approx(thrust, rel=1e-9)
-            assert -p * recovery.bearing(2, "force_x").influence(place)[0, 0, 1] == pytest.approx(-thrust, rel=1e-9)
+            assert -p * recovery.reaction("force_x", 0.0).influence(place)[
+                0, 0, 1
+            ] == pytest.approx(thrust, rel=1e-9)
+            assert -p * recovery.bearing(2, "force_x").influence(place)[0, 0, 1] == pytest.approx(
+                -thrust, rel=1e-9
+            )
             # The thrust hogs: the moment at mid-span is that of the simple beam less H e.
             simple = p * min(a, L - a) / 2
             moment = -p * recovery.section("moment_vertical", 18.0).influence(place)[0, 0, 1]
@@ -189,14 +243,19 @@ def test_one_bearing_held_lengthwise_makes_no_thrust_but_couples_the_modes():
     x = np.linspace(0.0, L, 19)
     assert np.abs(recovery.reaction("force_x", 0.0).influence(x)).max() < 1e-9
     assert recovery.reaction("force_x", L) is None
-    assert recovery.section("displacement_z", 18.0).influence(x)[9, 0, 1] == pytest.approx(L**3 / 48 / EI, rel=1e-9)
+    assert recovery.section("displacement_z", 18.0).influence(x)[9, 0, 1] == pytest.approx(
+        L**3 / 48 / EI, rel=1e-9
+    )
     assert not any(n.startswith("axial ") for n in beam.deck(12).mode_names)
 
 
 def test_second_bending_and_the_lengthwise_mode_form_a_pair():
-    """A bearing 1.3 m below the axis, rigid and of 6e9 N/m: the second bending and the lengthwise mode share each other."""
+    """A bearing 1.3 m below the axis, rigid and of 6e9 N/m: the second bending and the lengthwise
+    mode share each other."""
     rigid = deck_on(rb.Bearing(0.0, (*USUAL, "x"), z=-1.3), rb.Bearing(L, USUAL, z=-1.3))
-    soft = deck_on(rb.Bearing(0.0, USUAL, z=-1.3, stiffness={"x": 6e9}), rb.Bearing(L, USUAL, z=-1.3))
+    soft = deck_on(
+        rb.Bearing(0.0, USUAL, z=-1.3, stiffness={"x": 6e9}), rb.Bearing(L, USUAL, z=-1.3)
+    )
     for beam, second, names in [
         (rigid, (12.33, 21.33), ("vertical bending 2", "axial-bending 1")),
         (soft, (11.60, 16.08), ("axial-bending 1", "axial-bending 2")),
@@ -212,16 +271,21 @@ def test_second_bending_and_the_lengthwise_mode_form_a_pair():
     shear = {"shear_stiffness_vertical": E / 2.4 * 1.0, "rotary_inertia_vertical": 2500 * 2.553}
     soft = deck_on(rb.Bearing(0.0, (*USUAL, "x"), z=-1.3), rb.Bearing(L, USUAL, z=-1.3), **shear)
     assert soft.modes.frequencies_hz[[0, 2, 4]] == pytest.approx([3.19, 11.49, 19.81], abs=0.01)
-    assert soft.modes.frequencies_hz[:5] == pytest.approx(frame_of(soft, 144).frequencies(5), rel=1e-3)
+    assert soft.modes.frequencies_hz[:5] == pytest.approx(
+        frame_of(soft, 144).frequencies(5), rel=1e-3
+    )
 
 
 def test_a_beam_on_springs_solves_its_characteristic_equation():
-    """Symmetric modes between equal springs k: w = cosh a cos b x + cos a cosh b x about the middle, a = b L / 2."""
+    """Symmetric modes between equal springs k: w = cosh a cos b x + cos a cosh b x about the
+    middle, a = b L / 2."""
     for k in (1e6, 1e8, 1e10):
 
         def shear(a, k=k):
             b = 2 * a / L
-            return EI * b**3 * (np.cosh(a) * np.sin(a) + np.cos(a) * np.sinh(a)) - 2 * k * np.cos(a) * np.cosh(a)
+            return EI * b**3 * (np.cosh(a) * np.sin(a) + np.cos(a) * np.sinh(a)) - 2 * k * np.cos(
+                a
+            ) * np.cosh(a)
 
         a = brentq(shear, 1e-6, np.pi / 2)
         ends = [rb.Bearing(x, ("y", "roll"), stiffness={"z": k}) for x in (0.0, L)]
@@ -229,8 +293,12 @@ def test_a_beam_on_springs_solves_its_characteristic_equation():
         symmetric = (2 * a / L) ** 2 * np.sqrt(EI / M) / (2 * np.pi)
         assert np.min(np.abs(beam.modes.frequencies_hz / symmetric - 1)) < 1e-6
     # On the softest ones it is a rigid body: sqrt(2 k / m L).
-    soft = rb.Beam("b", (L,), M, EI, bearings=tuple(rb.Bearing(x, (), stiffness={"z": 1e6}) for x in (0.0, L)))
-    assert soft.modes.frequencies_hz[0] == pytest.approx(np.sqrt(2e6 / M / L) / (2 * np.pi), rel=1e-2)
+    soft = rb.Beam(
+        "b", (L,), M, EI, bearings=tuple(rb.Bearing(x, (), stiffness={"z": 1e6}) for x in (0.0, L))
+    )
+    assert soft.modes.frequencies_hz[0] == pytest.approx(
+        np.sqrt(2e6 / M / L) / (2 * np.pi), rel=1e-2
+    )
     assert soft.modes.names[0] == "vertical bending 1"
 
 
@@ -242,8 +310,12 @@ def test_springs_in_the_axis_only_lift_the_whole_deck():
     assert recovery.section("displacement_z", L / 2).influence(middle)[0, 0, 1] == pytest.approx(
         L**3 / 48 / EI + 1 / (2 * k), rel=1e-9
     )
-    assert [recovery.reaction("force_z", x).self_weight for x in (0.0, L)] == pytest.approx([M * 9.81 * L / 2] * 2, rel=1e-9)
-    assert recovery.section("moment_vertical", L / 2).self_weight == pytest.approx(-M * 9.81 * L**2 / 8, rel=1e-9)
+    assert [recovery.reaction("force_z", x).self_weight for x in (0.0, L)] == pytest.approx(
+        [M * 9.81 * L / 2] * 2, rel=1e-9
+    )
+    assert recovery.section("moment_vertical", L / 2).self_weight == pytest.approx(
+        -M * 9.81 * L**2 / 8, rel=1e-9
+    )
 
 
 def test_overhangs_tip_as_in_the_book():
@@ -254,27 +326,46 @@ def test_overhangs_tip_as_in_the_book():
     assert recovery.section("displacement_z", 0.0).influence(tip)[0, 0, 1] == pytest.approx(
         a**2 * (a + span) / (3 * EI), rel=1e-9
     )
-    assert recovery.reaction("force_z", a).influence(tip)[0, 0, 1] == pytest.approx(-(1 + a / span), rel=1e-9)
-    assert recovery.reaction("force_z", a + span).influence(tip)[0, 0, 1] == pytest.approx(a / span, rel=1e-9)
-    assert recovery.section("moment_vertical", a).influence(tip)[0, 0, 1] == pytest.approx(-a, rel=1e-9)
-    assert recovery.section("moment_vertical", a).self_weight == pytest.approx(M * 9.81 * a**2 / 2, rel=1e-9)
+    assert recovery.reaction("force_z", a).influence(tip)[0, 0, 1] == pytest.approx(
+        -(1 + a / span), rel=1e-9
+    )
+    assert recovery.reaction("force_z", a + span).influence(tip)[0, 0, 1] == pytest.approx(
+        a / span, rel=1e-9
+    )
+    assert recovery.section("moment_vertical", a).influence(tip)[0, 0, 1] == pytest.approx(
+        -a, rel=1e-9
+    )
+    assert recovery.section("moment_vertical", a).self_weight == pytest.approx(
+        M * 9.81 * a**2 / 2, rel=1e-9
+    )
 
 
 def test_two_bearings_carry_an_eccentric_load_by_the_lever_and_one_lifts():
     half = 1.5
-    fixed = {(0.0, half): ("x", "y", "z"), (0.0, -half): ("z",), (L, half): ("y", "z"), (L, -half): ("z",)}
+    fixed = {
+        (0.0, half): ("x", "y", "z"),
+        (0.0, -half): ("z",),
+        (L, half): ("y", "z"),
+        (L, -half): ("z",),
+    }
     deck = deck_on(*(rb.Bearing(x, f, y, -1.0) for (x, y), f in fixed.items())).deck(6)
     x, e, p = 9.0, 2.4, 1e6
     load = np.array([0.0, -p, -p * e])
-    values = [float(deck.recovery.bearing(i, "force_z").influence(np.array([x]))[0, 0] @ load) for i in (1, 2, 3, 4)]
-    # About the far bearing of each line; torsion brings the couple to both lines by their distance, as the load itself.
+    values = [
+        float(deck.recovery.bearing(i, "force_z").influence(np.array([x]))[0, 0] @ load)
+        for i in (1, 2, 3, 4)
+    ]
+    # About the far bearing of each line; torsion brings the couple to both lines by their distance,
+    # as the load itself.
     near, far = p * (1 - x / L) * (half + e) / (2 * half), p * (1 - x / L) * (half - e) / (2 * half)
     assert values[:2] == pytest.approx([near, far], rel=1e-9)
     assert far < 0 and sum(values) == pytest.approx(p, rel=1e-9)
     run = rb.cross(rb.AxleTrain([0.0], [p]), deck, speed=20.0, track_offset=e, time_step=5e-3)
     forces, lines = run.bearing_forces(), run.reactions()
     assert list(forces) == [1, 2, 3, 4] and "y = -1.5" in forces[2].where
-    assert forces[1]["force_z"] + forces[2]["force_z"] == pytest.approx(lines[0.0]["force_z"], abs=1e-6 * p)
+    assert forces[1]["force_z"] + forces[2]["force_z"] == pytest.approx(
+        lines[0.0]["force_z"], abs=1e-6 * p
+    )
     assert forces[2]["force_z"].min() < -0.25 * p
     assert np.isnan(forces[2]["force_y"]).all() and np.isnan(forces[4]["force_x"]).all()
     weight = run.bearing_forces(self_weight=True)[2]["force_z"] - forces[2]["force_z"]
@@ -286,10 +377,19 @@ def test_two_bearings_carry_an_eccentric_load_by_the_lever_and_one_lifts():
 
 def test_rigid_bearings_that_share_a_force_share_it_as_equally_stiff_ones():
     """Both hold y on one section: statics cannot say who takes how much."""
-    pair = [rb.Bearing(x, ("x", "y", "z") if x == 0.0 else ("y", "z"), y, -1.0) for x in (0.0, L) for y in (2.0, -2.0)]
+    pair = [
+        rb.Bearing(x, ("x", "y", "z") if x == 0.0 else ("y", "z"), y, -1.0)
+        for x in (0.0, L)
+        for y in (2.0, -2.0)
+    ]
     deck = deck_on(*pair).deck(4)
-    sideways = [deck.recovery.bearing(i, "force_y").influence(np.array([12.0]))[0, 0, 0] for i in (1, 2, 3, 4)]
-    assert sideways[0] == pytest.approx(sideways[1], rel=1e-12) and sum(sideways) == pytest.approx(-1.0, rel=1e-9)
+    sideways = [
+        deck.recovery.bearing(i, "force_y").influence(np.array([12.0]))[0, 0, 0]
+        for i in (1, 2, 3, 4)
+    ]
+    assert sideways[0] == pytest.approx(sideways[1], rel=1e-12) and sum(sideways) == pytest.approx(
+        -1.0, rel=1e-9
+    )
 
 
 # ---- simple spans
@@ -297,8 +397,13 @@ def test_rigid_bearings_that_share_a_force_share_it_as_equally_stiff_ones():
 
 def test_a_row_of_simple_spans_is_so_many_beams():
     row = rb.Beam("row", (20.0, 30.0, 20.0), M, EI, EIZ, GJ, EA, INERTIA, continuous=False)
-    single = {s: rb.Beam("one", (s,), M, EI, EIZ, GJ, EA, INERTIA, elements=n) for s, n in ((20.0, 12), (30.0, 17))}
-    alone = np.sort(np.concatenate([single[s].modes.frequencies_hz[:6] for s in (20.0, 20.0, 30.0)]))[:8]
+    single = {
+        s: rb.Beam("one", (s,), M, EI, EIZ, GJ, EA, INERTIA, elements=n)
+        for s, n in ((20.0, 12), (30.0, 17))
+    }
+    alone = np.sort(
+        np.concatenate([single[s].modes.frequencies_hz[:6] for s in (20.0, 20.0, 30.0)])
+    )[:8]
     assert row.modes.frequencies_hz[:8] == pytest.approx(alone, rel=1e-8)
     assert row.deck(4).supports == (0.0, 20.0, 50.0, 70.0) and len(row.bearings) == 6
     recovery, one = row.deck(4).recovery, single[30.0].deck(4).recovery
@@ -313,7 +418,9 @@ def test_a_row_of_simple_spans_is_so_many_beams():
         "shear_lateral",
     ):
         ours, theirs = recovery.section(quantity, 31.7), one.section(quantity, 11.7)
-        assert ours.influence(x) == pytest.approx(theirs.influence(x - 20.0), abs=1e-9 * np.abs(theirs.influence(x - 20.0)).max())
+        assert ours.influence(x) == pytest.approx(
+            theirs.influence(x - 20.0), abs=1e-9 * np.abs(theirs.influence(x - 20.0)).max()
+        )
         outside = ours.influence(np.array([5.0, 19.99, 50.01, 60.0]))
         assert np.abs(outside).max() < 1e-12 * np.abs(ours.influence(x)).max()
         assert ours.self_weight == pytest.approx(theirs.self_weight, rel=1e-9, abs=1e-6)
@@ -322,18 +429,27 @@ def test_a_row_of_simple_spans_is_so_many_beams():
     assert pier.self_weight == pytest.approx(M * 9.81 * 25.0, rel=1e-9)
     assert pier.influence(np.array([15.0, 35.0]))[:, 0, 1] == pytest.approx([-0.75, -0.5], rel=1e-9)
     assert [b.span for b in row.bearings] == [1, 1, 2, 2, 3, 3]
-    assert recovery.bearing(2, "force_z").influence(np.array([15.0, 35.0]))[:, 0, 1] == pytest.approx([-0.75, 0.0], abs=1e-9)
+    assert recovery.bearing(2, "force_z").influence(np.array([15.0, 35.0]))[
+        :, 0, 1
+    ] == pytest.approx([-0.75, 0.0], abs=1e-9)
     assert recovery.section("moment_vertical", 20.0).self_weight == pytest.approx(0.0, abs=1e-3)
 
 
 def test_a_train_crosses_simple_spans_one_after_the_other():
     row = rb.Beam("row", (20.0, 20.0), M, EI, EIZ, GJ, EA, INERTIA, continuous=False).deck(20, 0.02)
     one = rb.Beam("one", (20.0,), M, EI, EIZ, GJ, EA, INERTIA).deck(10, 0.02)
-    train, common = rb.AxleTrain([0.0, 2.5], [1e5, 1e5]), {"speed": 20.0, "time_step": 1e-3, "track_offset": 1.0}
+    train, common = (
+        rb.AxleTrain([0.0, 2.5], [1e5, 1e5]),
+        {"speed": 20.0, "time_step": 1e-3, "track_offset": 1.0},
+    )
     both, single = rb.cross(train, row, **common), rb.cross(train, one, **common)
     shift = 1000
     for q in ("displacement_z", "rotation_x"):
-        first, second, alone = both.displacement(9.0)[q], both.displacement(29.0)[q], single.displacement(9.0)[q]
+        first, second, alone = (
+            both.displacement(9.0)[q],
+            both.displacement(29.0)[q],
+            single.displacement(9.0)[q],
+        )
         count = min(len(alone), len(first) - shift)
         size = np.abs(alone).max()
         # A load at the very joint stands on one span at one sample, on rigid bearings.
@@ -344,18 +460,46 @@ def test_a_train_crosses_simple_spans_one_after_the_other():
 
 def test_bearings_of_simple_spans_may_be_told_apart():
     def bearings(*middle):
-        return (rb.Bearing(0.0, ("z", "y", "roll", "x")), *middle, rb.Bearing(50.0, ("z", "y", "roll")))
+        return (
+            rb.Bearing(0.0, ("z", "y", "roll", "x")),
+            *middle,
+            rb.Bearing(50.0, ("z", "y", "roll")),
+        )
 
     both = (rb.Bearing(20.0, USUAL, span=1), rb.Bearing(20.0, (*USUAL, "x"), span=2))
-    row = rb.Beam("row", (20.0, 30.0), M, EI, EIZ, GJ, EA, INERTIA, bearings=bearings(*both), continuous=False)
+    row = rb.Beam(
+        "row", (20.0, 30.0), M, EI, EIZ, GJ, EA, INERTIA, bearings=bearings(*both), continuous=False
+    )
     assert [b.span for b in row.bearings] == [1, 1, 2, 2]
-    shared = rb.Beam("row", (20.0, 30.0), M, EI, bearings=bearings(rb.Bearing(20.0, ("z",))), continuous=False)
+    shared = rb.Beam(
+        "row", (20.0, 30.0), M, EI, bearings=bearings(rb.Bearing(20.0, ("z",))), continuous=False
+    )
     assert [b.span for b in shared.bearings] == [1, 1, 2, 2]
     with pytest.raises(rb.InputError, match="span 2 from sliding along x"):
-        rb.Beam("row", (20.0, 30.0), M, EI, EIZ, GJ, EA, INERTIA, bearings=bearings(rb.Bearing(20.0, USUAL)), continuous=False)
+        rb.Beam(
+            "row",
+            (20.0, 30.0),
+            M,
+            EI,
+            EIZ,
+            GJ,
+            EA,
+            INERTIA,
+            bearings=bearings(rb.Bearing(20.0, USUAL)),
+            continuous=False,
+        )
     with pytest.raises(rb.InputError, match=r"bearings\[2\]\.span = 3: must be 1 or 2"):
-        rb.Beam("row", (20.0, 30.0), M, EI, bearings=bearings(rb.Bearing(20.0, span=3)), continuous=False)
-    with pytest.raises(rb.InputError, match=r"bearings\[2\]\.span = 1: can only be told of simple spans"):
+        rb.Beam(
+            "row",
+            (20.0, 30.0),
+            M,
+            EI,
+            bearings=bearings(rb.Bearing(20.0, span=3)),
+            continuous=False,
+        )
+    with pytest.raises(
+        rb.InputError, match=r"bearings\[2\]\.span = 1: can only be told of simple spans"
+    ):
         rb.Beam("row", (20.0, 30.0), M, EI, bearings=bearings(rb.Bearing(20.0, span=1)))
 
 
@@ -365,12 +509,18 @@ def test_bearings_of_simple_spans_may_be_told_apart():
 @pytest.mark.parametrize(
     ("bearings", "free"),
     [
-        ([rb.Bearing(0.0, ("y", "z", "roll"), z=-1.0), rb.Bearing(L, USUAL, z=-1.0)], "sliding along x"),
+        (
+            [rb.Bearing(0.0, ("y", "z", "roll"), z=-1.0), rb.Bearing(L, USUAL, z=-1.0)],
+            "sliding along x",
+        ),
         ([rb.Bearing(0.0, ("x", "y", "z")), rb.Bearing(L, ("y", "z"))], "rolling"),
         ([rb.Bearing(0.0, ("x", "y", "z"), y=2.0), rb.Bearing(L, ("y", "z"), y=2.0)], "rolling"),
         ([rb.Bearing(0.0, ("x", "y", "z", "roll")), rb.Bearing(L, ("z",))], "yawing"),
         ([rb.Bearing(0.0, ("x", "y", "roll"), stiffness={"z": 1e9})], "pitching or yawing"),
-        ([rb.Bearing(0.0, ("x", *USUAL)), rb.Bearing(L, ("y",), stiffness={"z": 1e-6})], "pitching"),
+        (
+            [rb.Bearing(0.0, ("x", *USUAL)), rb.Bearing(L, ("y",), stiffness={"z": 1e-6})],
+            "pitching",
+        ),
     ],
 )
 def test_a_mechanism_is_refused_with_the_way_it_moves(bearings, free):
@@ -379,8 +529,12 @@ def test_a_mechanism_is_refused_with_the_way_it_moves(bearings, free):
     assert "bearings" in error.value.field and error.value.remedy
 
 
-def test_two_bearings_beside_each_other_keep_the_deck_from_rolling_and_one_pair_lengthwise_from_yawing():
-    pair = [rb.Bearing(0.0, ("x", "y", "z"), y=1.0), rb.Bearing(0.0, ("x", "z"), y=-1.0), rb.Bearing(L, ("z",), y=1.0)]
+def test_two_bearings_abreast_keep_the_deck_from_rolling_and_a_lengthwise_pair_from_yawing():
+    pair = [
+        rb.Bearing(0.0, ("x", "y", "z"), y=1.0),
+        rb.Bearing(0.0, ("x", "z"), y=-1.0),
+        rb.Bearing(L, ("z",), y=1.0),
+    ]
     beam = deck_on(*pair)
     assert beam.modes.frequencies_hz[0] > 0.1
     theirs = frame_of(beam).frequencies(6)
@@ -411,15 +565,26 @@ def test_bad_bearings_are_refused(bearing, message):
 
 
 def test_a_bearing_beside_the_axis_asks_for_the_stiffness_it_needs():
-    """Else it would clamp the deck's turning, since the deck could not give lengthwise or sideways."""
+    """Else it would clamp the deck's turning: the deck could not give lengthwise or sideways."""
     low = rb.Bearing(0.0, ("x", "z"), z=-1.0), rb.Bearing(L, ("z",), z=-1.0)
-    with pytest.raises(rb.InputError, match=r"bearings\[1\]\.x: is held beside .* pitch .* Give axial_stiffness"):
+    with pytest.raises(
+        rb.InputError, match=r"bearings\[1\]\.x: is held beside .* pitch .* Give axial_stiffness"
+    ):
         rb.Beam("b", (L,), M, EI, bearings=low)
     side = rb.Bearing(0.0, USUAL, z=-1.0), rb.Bearing(L, USUAL, z=-1.0)
-    with pytest.raises(rb.InputError, match=r"bearings\[1\]\.y: is held beside .* roll .* Give bending_stiffness_lateral"):
+    with pytest.raises(
+        rb.InputError,
+        match=r"bearings\[1\]\.y: is held beside .* roll .* Give bending_stiffness_lateral",
+    ):
         rb.Beam("b", (L,), M, EI, torsional_stiffness=GJ, polar_inertia=INERTIA, bearings=side)
     # Without twist a bearing may stand anywhere below a plane beam.
-    plane = rb.Beam("b", (L,), M, EI, bearings=(rb.Bearing(0.0, ("z",), 2.0, -1.0), rb.Bearing(L, ("z",), -2.0, -1.0)))
+    plane = rb.Beam(
+        "b",
+        (L,),
+        M,
+        EI,
+        bearings=(rb.Bearing(0.0, ("z",), 2.0, -1.0), rb.Bearing(L, ("z",), -2.0, -1.0)),
+    )
     assert plane.modes.frequencies_hz[0] == pytest.approx(3.307, rel=1e-3)
 
 
@@ -445,7 +610,8 @@ def test_modes_on_bearings_off_the_axis_converge_with_the_mesh():
 
 
 def test_a_bearing_stands_on_the_end_it_misses_by_rounding():
-    """On the end itself, not beside it, for beam and box alike; a millimetre off is another place, a metre off no deck's."""
+    """On the end itself, not beside it, for beam and box alike; a millimetre off is another place,
+    a metre off no deck's."""
     ends = np.array([0.0, 12.0, 36.0])
     assert [on_deck(x, ends) for x in (-1e-9, 12.0 + 1e-9, 36.0 + 3e-5)] == [0.0, 12.0, 36.0]
     assert on_deck(12.001, ends) == 12.001

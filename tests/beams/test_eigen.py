@@ -1,4 +1,5 @@
-"""Lowest modes of sparse models, against all modes of the same model by LAPACK and against hand formulas."""
+"""Lowest modes of sparse models, against all modes of the same model by LAPACK and against hand
+formulas."""
 
 import numpy as np
 import pytest
@@ -9,8 +10,12 @@ from railbridge.beams.eigen import count_below, factorised, lowest
 
 
 def chain(n, spring=4e6, mass=250.0):
-    """Equal masses between equal springs, both ends held: omega_i = 2 sqrt(k / m) sin(i pi / (2 (n + 1)))."""
-    k = diags_array([np.full(n - 1, -spring), np.full(n, 2 * spring), np.full(n - 1, -spring)], offsets=[-1, 0, 1])
+    """Equal masses between equal springs, both ends held: omega_i = 2 sqrt(k / m) sin(i pi / (2 (n
+    + 1)))."""
+    k = diags_array(
+        [np.full(n - 1, -spring), np.full(n, 2 * spring), np.full(n - 1, -spring)],
+        offsets=[-1, 0, 1],
+    )
     return csc_array(k), csc_array(diags_array(np.full(n, mass)))
 
 
@@ -35,7 +40,8 @@ def test_a_full_mass_matrix_counts_too():
 
 @pytest.mark.parametrize("copies", [1, 3])
 def test_modes_below_a_frequency_are_counted(copies):
-    """Equal chains beside each other: every frequency as often as there are chains, and the count knows."""
+    """Equal chains beside each other: every frequency as often as there are chains, and the count
+    knows."""
     one, mass = chain(200)
     k, m = (csc_array(block_diag([a] * copies)) for a in (one, mass))
     squares = 4 * 4e6 / 250.0 * np.sin(np.arange(1, 201) * np.pi / 402) ** 2

@@ -13,7 +13,8 @@ KGA, ROTARY = 2.2e10, 6.4e3
 
 
 def waves(mode, shear, rotary):
-    """Angular frequency of a simple Timoshenko beam's mode: sine and cosine in both equations of motion give a 2 x 2 problem."""
+    """Angular frequency of a simple Timoshenko beam's mode: sine and cosine in both equations of
+    motion give a 2 x 2 problem."""
     k = mode * np.pi / L
     if shear is None:
         return k**2 * np.sqrt(EI / (M + rotary * k**2))
@@ -24,7 +25,15 @@ def waves(mode, shear, rotary):
 
 
 def simple(shear=None, rotary=None, elements=40):
-    return rb.Beam("b", (L,), M, EI, elements=elements, shear_stiffness_vertical=shear, rotary_inertia_vertical=rotary)
+    return rb.Beam(
+        "b",
+        (L,),
+        M,
+        EI,
+        elements=elements,
+        shear_stiffness_vertical=shear,
+        rotary_inertia_vertical=rotary,
+    )
 
 
 @pytest.mark.parametrize("rotary", [None, ROTARY])
@@ -40,14 +49,21 @@ def test_frequencies_of_a_simple_beam_with_and_without_the_switches(shear, rotar
 
 def test_lateral_switches_work_sideways_only():
     beam = rb.Beam("b", (L,), M, EI, EI, shear_stiffness_lateral=KGA, rotary_inertia_lateral=ROTARY)
-    found = {n: f for n, f in zip(beam.modes.names, beam.modes.frequencies_hz, strict=True) if n.endswith(" 2")}
-    assert found["lateral bending 2"] == pytest.approx(waves(2, KGA, ROTARY) / (2 * np.pi), rel=2e-4)
+    found = {
+        n: f
+        for n, f in zip(beam.modes.names, beam.modes.frequencies_hz, strict=True)
+        if n.endswith(" 2")
+    }
+    assert found["lateral bending 2"] == pytest.approx(
+        waves(2, KGA, ROTARY) / (2 * np.pi), rel=2e-4
+    )
     assert found["vertical bending 2"] == pytest.approx(waves(2, None, 0.0) / (2 * np.pi), rel=1e-4)
 
 
 @pytest.mark.parametrize("at", [18.0, 7.77, 0.4])
 def test_modal_section_forces_of_a_timoshenko_beam(at):
-    """w = A sin kx, psi = B cos kx with B = A (k - m omega^2 / (kGA k)), unit modal mass counting the turning too."""
+    """w = A sin kx, psi = B cos kx with B = A (k - m omega^2 / (kGA k)), unit modal mass counting
+    the turning too."""
     deck = simple(KGA, ROTARY, 240).deck(4)
     for mode in range(1, 5):
         k, omega = mode * np.pi / L, waves(mode, KGA, ROTARY)
@@ -60,8 +76,14 @@ def test_modal_section_forces_of_a_timoshenko_beam(at):
         ]:
             # Up to its sign, which is the deck's own.
             sign = np.sign(deck.shapes(np.array([0.1]))[0, mode - 1, 1])
-            scale = {"displacement_z": size, "moment_vertical": EI * share * k * size, "shear_vertical": KGA * k * size}[quantity]
-            assert sign * deck.recovery.section(quantity, at).modal[mode - 1] == pytest.approx(expected, abs=4e-5 * scale)
+            scale = {
+                "displacement_z": size,
+                "moment_vertical": EI * share * k * size,
+                "shear_vertical": KGA * k * size,
+            }[quantity]
+            assert sign * deck.recovery.section(quantity, at).modal[mode - 1] == pytest.approx(
+                expected, abs=4e-5 * scale
+            )
 
 
 RECOVERIES = [simple(shear).deck(2).recovery for shear in (None, KGA)]
@@ -116,20 +138,38 @@ def test_elements_move_rigidly_without_force_and_weigh_what_they_should(name, ph
 
 
 def test_a_centroid_off_the_axis_couples_lateral_bending_and_torsion():
-    """Simple beam, each mode n: [EIz k^4, GJ k^2] against [[m, -m z], [-m z, I + m z^2]] (sines in both)."""
+    """Simple beam, each mode n: [EIz k^4, GJ k^2] against [[m, -m z], [-m z, I + m z^2]] (sines in
+    both)."""
     z = 0.9
     ends = rb.Bearing(0.0, ("x", "y", "z", "roll")), rb.Bearing(L, ("y", "z", "roll"))
-    beam = rb.Beam("b", (L,), M, EI, EIZ, GJ, None, INERTIA, bearings=(rb.Bearing(0.0), rb.Bearing(L)), centroid_height=z)
+    beam = rb.Beam(
+        "b",
+        (L,),
+        M,
+        EI,
+        EIZ,
+        GJ,
+        None,
+        INERTIA,
+        bearings=(rb.Bearing(0.0), rb.Bearing(L)),
+        centroid_height=z,
+    )
     whole = rb.Beam("b", (L,), M, EI, EIZ, GJ, EA, INERTIA, bearings=ends, centroid_height=z)
     expected = []
     for n in range(1, 5):
         k = n * np.pi / L
         mass = np.array([[M, -M * z], [-M * z, INERTIA + M * z**2]])
-        expected += list(np.sqrt(np.linalg.eigvals(np.linalg.solve(mass, np.diag([EIZ * k**4, GJ * k**2]))).real) / (2 * np.pi))
+        expected += list(
+            np.sqrt(np.linalg.eigvals(np.linalg.solve(mass, np.diag([EIZ * k**4, GJ * k**2]))).real)
+            / (2 * np.pi)
+        )
     for deck in (beam, whole):
-        sideways = np.flatnonzero(deck.modes.energies["lateral"] + deck.modes.energies["torsion"] > 0.5)[:5]
+        sideways = np.flatnonzero(
+            deck.modes.energies["lateral"] + deck.modes.energies["torsion"] > 0.5
+        )[:5]
         assert deck.modes.frequencies_hz[sideways] == pytest.approx(np.sort(expected)[:5], rel=2e-4)
-    # The bearing at the shear centre is 0.9 m below the centroid, so it also couples lengthwise and vertical motion.
+    # The bearing at the shear centre is 0.9 m below the centroid, so it also couples lengthwise and
+    # vertical motion.
     assert whole.modes.frequencies_hz[0] < beam.modes.frequencies_hz[0]
     # Modal values by quadrature of the line itself, where the section cuts an element.
     deck = beam.deck(8)

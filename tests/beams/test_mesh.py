@@ -11,14 +11,25 @@ E = 35e9
 
 
 def viaduct(spans, right=-2.3, **more):
-    """The section of viaduct36 on elastic pads beside and below its axis, which couple all its freedoms."""
+    """The section of viaduct36 on elastic pads beside and below its axis, which couple all its
+    freedoms."""
     pads = tuple(
         rb.Bearing(36.0 * i, (), y, -1.3, {"z": 3e9, "y": 5e8, "x": 2e9 if i == 0 else 2e6})
         for i in range(spans + 1)
         for y in (2.5, right)
     )
     given = {"bearings": pads, "centroid_height": 0.3} | more
-    return rb.Beam("v", (36.0,) * spans, 12e3, E * 2.553, E * 25.53, E / 2.4 * 5.59, E * 4.8, 2500 * 28.083, **given)
+    return rb.Beam(
+        "v",
+        (36.0,) * spans,
+        12e3,
+        E * 2.553,
+        E * 25.53,
+        E / 2.4 * 5.59,
+        E * 4.8,
+        2500 * 28.083,
+        **given,
+    )
 
 
 LONG = {
@@ -37,15 +48,21 @@ def test_few_modes_are_the_first_of_all(name, count):
     deck, wanted = beam.deck(count), np.flatnonzero(everything.excitable)[:count]
     assert beam.mesh.size > mesh.DENSE and len(deck.frequencies_hz) == count
     assert deck.frequencies_hz == pytest.approx(everything.frequencies_hz[wanted], rel=1e-9)
-    # Neighbours that are nearly equal may be any mixture, and signs are free: what they do together is the same.
+    # Neighbours that are nearly equal may be any mixture, and signs are free: what they do together
+    # is the same.
     x = np.linspace(0.0, beam.length, 41)
     ours, theirs = deck.shapes(x), beam.mesh.interpolate(everything.vectors[:, wanted])(x)
     if name != "simple spans":
         assert deck.mode_names == tuple(everything.names[i] for i in wanted)
-        gaps = np.diff(everything.frequencies_hz[np.append(wanted, wanted[-1] + 1)]) / deck.frequencies_hz
+        gaps = (
+            np.diff(everything.frequencies_hz[np.append(wanted, wanted[-1] + 1)])
+            / deck.frequencies_hz
+        )
         apart = np.minimum(gaps, np.append(1.0, gaps[:-1])) > 1e-3
         assert apart.sum() > count / 3
-        assert np.abs(ours[:, apart] - theirs[:, apart]).max(axis=0) == pytest.approx(0.0, abs=1e-6 * np.abs(theirs).max())
+        assert np.abs(ours[:, apart] - theirs[:, apart]).max(axis=0) == pytest.approx(
+            0.0, abs=1e-6 * np.abs(theirs).max()
+        )
 
 
 def test_all_modes_of_the_mesh_can_be_asked_for():
@@ -64,9 +81,12 @@ def test_a_long_viaduct_needs_no_dense_modes(monkeypatch):
 
     monkeypatch.setattr(mesh, "eigh", refuse)
     deck = viaduct(10).deck(20)
-    # Equal spans swing against each other as simple ones would; pads that give, or hold lengthwise, change it a little.
+    # Equal spans swing against each other as simple ones would; pads that give, or hold lengthwise,
+    # change it a little.
     simple = np.pi / 2 / 36.0**2 * np.sqrt(E * 2.553 / 12e3)
-    assert deck.frequencies_hz[deck.mode_names.index("vertical bending 1")] == pytest.approx(simple, rel=0.03)
+    assert deck.frequencies_hz[deck.mode_names.index("vertical bending 1")] == pytest.approx(
+        simple, rel=0.03
+    )
 
 
 def test_a_mode_that_the_iteration_misses_is_found_all_the_same(monkeypatch):

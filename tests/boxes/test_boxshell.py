@@ -12,7 +12,13 @@ COARSE = BoxMesh(20, 2, 4, 2)
 
 
 def test_shell_weighs_what_the_drawing_says():
-    b = box(root_thickness=0.4, edge_thickness=0.2, bottom_spacing=4.4, track_mass=700.0, edge_mass=500.0)
+    b = box(
+        root_thickness=0.4,
+        edge_thickness=0.2,
+        bottom_spacing=4.4,
+        track_mass=700.0,
+        edge_mass=500.0,
+    )
     s = b.shell(COARSE)
     assert s.mass_per_metre == pytest.approx(b.mass_per_metre)
     moved = np.zeros((len(s.nodes), 6))
@@ -23,7 +29,8 @@ def test_shell_weighs_what_the_drawing_says():
 
 
 def test_mesh_converges_at_fixed_pads():
-    """Each refinement moves the lowest modes less, and the default mesh is within 2.5 % of the finest for 15 modes."""
+    """Each refinement moves the lowest modes less, and the default mesh is within 2.5 % of the
+    finest for 15 modes."""
     table = box().convergence((0.5, 1.0, 2.0)).to_numpy()
     steps = np.abs(np.diff(table[:6], axis=1))
     assert np.all(steps[:, 1] < steps[:, 0])
@@ -32,15 +39,21 @@ def test_mesh_converges_at_fixed_pads():
 
 def test_more_diaphragms_stiffen_torsion():
     one, more = (box(inner_diaphragms=n).shell(COARSE).modes(6) for n in (0, 2))
-    assert more.frequencies_hz[more.names.index("torsion 1")] > 1.03 * one.frequencies_hz[one.names.index("torsion 1")]
+    assert (
+        more.frequencies_hz[more.names.index("torsion 1")]
+        > 1.03 * one.frequencies_hz[one.names.index("torsion 1")]
+    )
 
 
 def test_thin_cantilevers_flap_locally():
-    """A thin cantilever is a clamped plate: its ladder of local modes starts below that of a thick one."""
+    """A thin cantilever is a clamped plate: its ladder of local modes starts below that of a thick
+    one."""
     modes = box(root_thickness=0.18, edge_thickness=0.12).shell(COARSE).modes(12)
     local = [i for i, n in enumerate(modes.names) if n.startswith("local plate")]
     assert len(local) >= 3 and all(modes.parts[i] == "cantilevers" for i in local)
-    clamped = 3.516 / (2 * np.pi) / (2.3 - 0.175) ** 2 * 0.15 * np.sqrt(34e9 / (12 * (1 - 0.04) * 2500))
+    clamped = (
+        3.516 / (2 * np.pi) / (2.3 - 0.175) ** 2 * 0.15 * np.sqrt(34e9 / (12 * (1 - 0.04) * 2500))
+    )
     assert 0.6 * clamped < modes.frequencies_hz[local[0]] < 1.1 * clamped
     assert set(modes.symmetric[local].tolist()) == {True, False}
 
@@ -55,7 +68,12 @@ def test_a_continuous_box_has_diaphragms_over_every_line():
 
 @pytest.mark.parametrize(
     ("mesh", "says"),
-    [({"web": 0}, "across joins nothing"), ({"along": 2}, "along"), ({"slab": 1}, "slab"), ({"cantilever": 0}, "cantilever")],
+    [
+        ({"web": 0}, "across joins nothing"),
+        ({"along": 2}, "along"),
+        ({"slab": 1}, "slab"),
+        ({"cantilever": 0}, "cantilever"),
+    ],
 )
 def test_meshes_without_elements_are_refused(mesh, says):
     with pytest.raises(InputError, match=says):
@@ -63,10 +81,14 @@ def test_meshes_without_elements_are_refused(mesh, says):
 
 
 def test_pads_stand_under_the_feet_of_the_webs_they_name():
-    shell = box(bearings=(rb.Pads(0.0, ("x", "y", "z"), drop=0.2), rb.Pads(36.0, under="left"))).shell(COARSE)
+    shell = box(
+        bearings=(rb.Pads(0.0, ("x", "y", "z"), drop=0.2), rb.Pads(36.0, under="left"))
+    ).shell(COARSE)
     feet = [(pad.x, *shell.points[pad.point]) for pad in shell.pads]
     assert np.allclose(feet, [(0.0, 2.5, 0.1), (0.0, -2.5, 0.1), (36.0, 2.5, 0.1)])
     assert [pad.arm for pad in shell.pads] == pytest.approx([0.3, 0.3, 0.1])
-    assert shell.stations[[0, -1]].tolist() == [-0.3, 36.3] and {0.0, 36.0} <= set(shell.stations.tolist())
+    assert shell.stations[[0, -1]].tolist() == [-0.3, 36.3] and {0.0, 36.0} <= set(
+        shell.stations.tolist()
+    )
     heads = shell.points[list(COARSE.heads)]
     assert np.allclose(heads, [(2.5, 1.875), (-2.5, 1.875)])

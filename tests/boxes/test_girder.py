@@ -18,7 +18,8 @@ def plain():
 
 
 def parts(rectangles):
-    """Area, height of the centroid, I_y and I_z of rectangles (width, height, middle y, middle z), by Steiner."""
+    """Area, height of the centroid, I_y and I_z of rectangles (width, height, middle y, middle z),
+    by Steiner."""
     a = np.array([w * h for w, h, _, _ in rectangles])
     y, z = np.array([(y, z) for *_, y, z in rectangles]).T
     centroid = a @ z / a.sum()
@@ -28,12 +29,17 @@ def parts(rectangles):
 
 
 def thin_walled_shear_area():
-    """I^2 / sum of int S^2 / t ds over one half of the box, whose flow is zero in the planes of symmetry and at the edge.
+    """I^2 / sum of int S^2 / t ds over one half of the box, whose flow is zero in the planes of
+    symmetry and at the edge.
 
     Level plates give way between the faces of the webs only.
     """
     zs, zb = 1.875, 0.1
-    lengths, heights, t = np.array([2.3, 2.5, 2.5, 1.775]), np.array([zs, zs, zb, 0.9875]), np.array([0.25, 0.25, 0.2, 0.35])
+    lengths, heights, t = (
+        np.array([2.3, 2.5, 2.5, 1.775]),
+        np.array([zs, zs, zb, 0.9875]),
+        np.array([0.25, 0.25, 0.2, 0.35]),
+    )
     area = lengths * t
     centre = area @ heights / area.sum()
     inertia = 2 * (area @ (heights - centre) ** 2 + 0.35 * 1.775**3 / 12)
@@ -45,15 +51,22 @@ def thin_walled_shear_area():
     total = sum(flow_squared(*p) for p in ((2.125, zs, 0.25), (2.325, zs, 0.25), (2.325, zb, 0.2)))
     z, step = np.linspace(zs, zb, 2001, retstep=True)
     start = 0.25 * (zs - centre) * (2.3 + 2.5)
-    flow = start + 0.35 * np.concatenate([[0.0], np.cumsum(((z[1:] + z[:-1]) / 2 - centre) * -step)])
+    flow = start + 0.35 * np.concatenate(
+        [[0.0], np.cumsum(((z[1:] + z[:-1]) / 2 - centre) * -step)]
+    )
     total += np.sum(flow**2) * -step / 0.35
     return inertia**2 / (2 * total)
 
 
 def test_section_by_hand(plain):
-    """Four rectangles; J by Bredt's formula on the middle lines and the cantilevers' own b t^3 / 3."""
+    """Four rectangles; J by Bredt's formula on middle lines plus b t^3 / 3 of the cantilevers."""
     area, centroid, i_y, i_z = parts(
-        [(9.6, 0.25, 0, 1.875), (5.35, 0.2, 0, 0.1), (0.35, 1.55, 2.5, 0.975), (0.35, 1.55, -2.5, 0.975)]
+        [
+            (9.6, 0.25, 0, 1.875),
+            (5.35, 0.2, 0, 0.1),
+            (0.35, 1.55, 2.5, 0.975),
+            (0.35, 1.55, -2.5, 0.975),
+        ]
     )
     s = plain.section
     assert s.area == pytest.approx(area, rel=1e-9)
@@ -61,7 +74,10 @@ def test_section_by_hand(plain):
     assert s.second_moment_vertical == pytest.approx(i_y, rel=1e-9)
     assert s.second_moment_lateral == pytest.approx(i_z, rel=1e-9)
     height = 2.0 - 0.125 - 0.1
-    bredt = 4 * (5.0 * height) ** 2 / (5.0 / 0.25 + 5.0 / 0.2 + 2 * height / 0.35) + 2 * 2.125 * 0.25**3 / 3
+    bredt = (
+        4 * (5.0 * height) ** 2 / (5.0 / 0.25 + 5.0 / 0.2 + 2 * height / 0.35)
+        + 2 * 2.125 * 0.25**3 / 3
+    )
     assert bredt < s.torsion_constant < 1.06 * bredt
     assert s.shear_area_vertical == pytest.approx(thin_walled_shear_area(), rel=0.005)
     assert 0.0 < s.shear_centre[1] < 2.0 and s.shear_centre[0] == pytest.approx(0.0, abs=1e-3)
@@ -69,10 +85,12 @@ def test_section_by_hand(plain):
 
 
 def test_leaning_webs_and_haunches_have_the_drawn_area():
-    """The section's area, by the library, is that of the outline by the shoelace formula, and of the parts by hand."""
+    """The section's area, by the library, is that of the outline by the shoelace formula, and of
+    the parts by hand."""
     b = box(bottom_spacing=4.0, root_thickness=0.45, edge_thickness=0.18, haunch_length=1.0)
     assert b.section.area == pytest.approx(b.concrete_mass / 2500, rel=1e-9)
-    # Slab in the middle, cantilevers and haunches as trapezia between the webs' middle planes; webs; bottom.
+    # Slab in the middle, cantilevers and haunches as trapezia between the webs' middle planes;
+    # webs; bottom.
     slab = 3.0 * 0.25 + 2 * 1.0 * 0.35 + 2 * 2.3 * (0.45 + 0.18) / 2
     lean = 0.5 / (2.0 - 0.225 - 0.1)
     webs = 2 * 0.35 * np.hypot(1, lean) * (2.0 - 0.45 - 0.2)
@@ -83,9 +101,15 @@ def test_leaning_webs_and_haunches_have_the_drawn_area():
 def test_bearings_stand_where_the_pads_are(plain):
     found = {(b.x, round(b.y, 9)) for b in plain.beam().bearings}
     assert found == {(0.0, 2.5), (0.0, -2.5), (0.0, 0.0), (36.0, 2.5), (36.0, -2.5)}
-    assert {round(b.z, 9) for b in plain.beam().bearings} == {round(-plain.section.shear_centre[1], 9)}
+    assert {round(b.z, 9) for b in plain.beam().bearings} == {
+        round(-plain.section.shear_centre[1], 9)
+    }
     # Held lengthwise under both webs, a beam would be clamped in plan; a box is not.
-    clamped = dict(zip((b := plain.beam(clamped_in_plan=True)).modes.names, b.modes.frequencies_hz, strict=True))
+    clamped = dict(
+        zip(
+            (b := plain.beam(clamped_in_plan=True)).modes.names, b.modes.frequencies_hz, strict=True
+        )
+    )
     free = dict(zip((b := plain.beam()).modes.names, b.modes.frequencies_hz, strict=True))
     assert clamped["lateral bending 1"] > 1.25 * free["lateral bending 1"]
     # Lengthwise held below the centroid: second bending and axial motion form a pair.
@@ -95,7 +119,11 @@ def test_bearings_stand_where_the_pads_are(plain):
 
 def test_switches_soften_the_beam(plain):
     stiff = plain.beam(shear=False, rotary_inertia=False).modes.frequencies_hz[0]
-    assert plain.beam().modes.frequencies_hz[0] < plain.beam(rotary_inertia=False).modes.frequencies_hz[0] < stiff
+    assert (
+        plain.beam().modes.frequencies_hz[0]
+        < plain.beam(rotary_inertia=False).modes.frequencies_hz[0]
+        < stiff
+    )
 
 
 FILE = {
@@ -106,8 +134,13 @@ FILE = {
 
 def test_deck_files_give_a_beam_or_a_shell():
     beam = rb.deck_from_table("test", FILE | {"modes": 8})
-    shell = rb.deck_from_table("test", FILE | {"model": "shell", "modes": 8, "mesh": {"along": 20, "web": 2, "slab": 4}})
-    assert beam.mass_per_metre == pytest.approx(shell.mass_per_metre) and beam.width == shell.width == 9.6
+    shell = rb.deck_from_table(
+        "test", FILE | {"model": "shell", "modes": 8, "mesh": {"along": 20, "web": 2, "slab": 4}}
+    )
+    assert (
+        beam.mass_per_metre == pytest.approx(shell.mass_per_metre)
+        and beam.width == shell.width == 9.6
+    )
     assert beam.recovery.lacks == "" and "only its modes" in shell.recovery.lacks
     assert shell.frequencies_hz[0] == pytest.approx(beam.frequencies_hz[0], rel=0.03)
     x = np.array([9.0, 18.0, 30.0])
@@ -118,10 +151,18 @@ def test_deck_files_give_a_beam_or_a_shell():
 
 
 def test_a_car_crosses_the_shell():
-    """Static sag under slow axles: shell deck (no static correction, 30 modes) and beam deck within 5 %."""
+    """Static sag under slow axles: shell deck (no static correction, 30 modes) and beam deck within
+    5 %."""
     train = rb.AxleTrain((0.0, 2.5), (100e3, 100e3))
     peaks = []
-    for model in ({"modes": 10}, {"model": "shell", "modes": 30, "mesh": {"along": 20, "web": 2, "slab": 4, "cantilever": 2}}):
+    for model in (
+        {"modes": 10},
+        {
+            "model": "shell",
+            "modes": 30,
+            "mesh": {"along": 20, "web": 2, "slab": 4, "cantilever": 2},
+        },
+    ):
         deck = rb.deck_from_table("test", FILE | model)
         run = rb.cross(train, deck, rb.Track(), speed=5.0)
         peaks.append(np.abs(run.displacement(18.0)["displacement_z"]).max())
@@ -207,7 +248,9 @@ def test_boxes_load_by_name(tmp_path):
         rb.box("viaduct36")
     with pytest.raises(InputError, match="Did you mean"):
         rb.box("viaduct36_identifed")
-    assert box_from_table("test", FILE) == replace(box(tracks={"left": 2.4}), bearings=(Pads(0.0, ("x", "y", "z")), Pads(36.0)))
+    assert box_from_table("test", FILE) == replace(
+        box(tracks={"left": 2.4}), bearings=(Pads(0.0, ("x", "y", "z")), Pads(36.0))
+    )
 
 
 def test_pads_that_miss_the_end_by_rounding_stand_on_it():

@@ -23,13 +23,20 @@ WAVE = np.sin(np.pi * TUBE.stations / 20.0)
 
 
 def moving(x=0.0, y=0.0, z=0.0):
-    """A motion of the points of the section times a half sine along the deck, shape (nodes, 6, 1)."""
+    """A motion of the section's points times a half sine along the deck, shape (nodes, 6, 1)."""
     section = np.stack(np.broadcast_arrays(x, y, z, 0.0, 0.0, 0.0), axis=-1) * np.ones((4, 6))
     return (WAVE[:, None, None] * section).reshape(-1, 6, 1)
 
 
 Y, Z = CORNERS.T
-RIGID = {0: {"x": 1.0}, 1: {"y": 1.0}, 2: {"z": 1.0}, 3: {"y": -Z, "z": Y}, 4: {"x": Z}, 5: {"x": -Y}}
+RIGID = {
+    0: {"x": 1.0},
+    1: {"y": 1.0},
+    2: {"z": 1.0},
+    3: {"y": -Z, "z": Y},
+    4: {"x": Z},
+    5: {"x": -Y},
+}
 
 
 @pytest.mark.parametrize("way", RIGID)
@@ -65,7 +72,9 @@ def test_names_are_numbered_within_their_kind_and_mirrors_are_told():
     assert modes.symmetric.tolist() == [True, False, True]
 
 
-@pytest.mark.parametrize(("part", "points"), [("top", (0, 1)), ("bottom", (2, 3)), ("left", (3, 0))])
+@pytest.mark.parametrize(
+    ("part", "points"), [("top", (0, 1)), ("bottom", (2, 3)), ("left", (3, 0))]
+)
 def test_the_liveliest_part_is_named(part, points):
     """A part whose two points move, its neighbours' one each."""
     assert described(TUBE, np.array([1.0]), moving(z=np.isin(range(4), points))).parts == (part,)

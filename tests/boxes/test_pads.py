@@ -17,7 +17,9 @@ def field(function, freedom, point=1):
     return moved.ravel()
 
 
-@pytest.mark.parametrize(("x", "length"), [(1.0, 0.3), (1.0, 1.5), (2.0, 0.6), (0.1, 0.6), (3.0, 1.0)])
+@pytest.mark.parametrize(
+    ("x", "length"), [(1.0, 0.3), (1.0, 1.5), (2.0, 0.6), (0.1, 0.6), (3.0, 1.0)]
+)
 def test_a_pad_holds_the_mean_over_its_length_on_the_deck(x, length):
     """Of a linear field that is its value at the middle of what lies under the deck."""
     (row, stiffness), *_ = held([Pad(x, length, 1, fixed=("z",))], STATIONS, POINTS, SIZE)
@@ -28,16 +30,25 @@ def test_a_pad_holds_the_mean_over_its_length_on_the_deck(x, length):
 
 
 def test_a_pad_below_the_point_moves_as_the_foot_turns():
-    """w = c x turns the foot by -c about y, so a point `arm` below it moves along x by c arm; roll moves it along y."""
-    (along, first), (across, second) = held([Pad(1.0, 1.5, 1, 0.4, ("y",), {"x": 5e6})], STATIONS, POINTS, SIZE)
+    """w = c x turns the foot by -c about y, so a point `arm` below it moves along x by c arm; roll
+    moves it along y."""
+    (along, first), (across, second) = held(
+        [Pad(1.0, 1.5, 1, 0.4, ("y",), {"x": 5e6})], STATIONS, POINTS, SIZE
+    )
     assert (first, second) == (5e6, np.inf)
     assert (along @ field(lambda s: 0.01 * s, 2))[0] == pytest.approx(0.01 * 0.4)
     assert (across @ field(lambda s: 0.02 + 0.0 * s, 3))[0] == pytest.approx(0.02 * 0.4)
 
 
 def test_what_is_left_keeps_every_condition():
-    """Overlapping pads: any motion of the freedoms that are left satisfies all rows, and none but the conditions is lost."""
-    rows = held([Pad(1.0, 1.5, 1), Pad(1.4, 1.5, 1), Pad(2.0, 0.1, 0, 0.3, ("x", "z"))], STATIONS, POINTS, SIZE)
+    """Overlapping pads: any motion of the freedoms that are left satisfies all rows, and none but
+    the conditions is lost."""
+    rows = held(
+        [Pad(1.0, 1.5, 1), Pad(1.4, 1.5, 1), Pad(2.0, 0.1, 0, 0.3, ("x", "z"))],
+        STATIONS,
+        POINTS,
+        SIZE,
+    )
     turn, left = elimination(rows, SIZE)
     assert turn.shape == (SIZE, SIZE - 4) and np.linalg.matrix_rank(turn.toarray()) == SIZE - 4
     assert np.abs(np.vstack([(row @ turn).toarray() for row, _ in rows])).max() < 1e-14
@@ -45,7 +56,9 @@ def test_what_is_left_keeps_every_condition():
 
 
 def test_springs_eliminate_nothing():
-    turn, left = elimination(held([Pad(1.0, 0.5, 1, fixed=(), stiffness={"z": 1e8})], STATIONS, POINTS, SIZE), SIZE)
+    turn, left = elimination(
+        held([Pad(1.0, 0.5, 1, fixed=(), stiffness={"z": 1e8})], STATIONS, POINTS, SIZE), SIZE
+    )
     assert np.array_equal(turn.toarray(), np.eye(SIZE)) and left.tolist() == list(range(SIZE))
 
 

@@ -14,21 +14,27 @@ def rectangle(width, height, y=0.0, z=0.0):
 
 
 def test_solid_rectangle():
-    """Area and second moments exactly; J by the series of Saint-Venant; 5/6 of the area in shear; centre in the middle."""
+    """Area and second moments exactly; J by the series of Saint-Venant; 5/6 of the area in shear;
+    centre in the middle."""
     b, h = 1.0, 2.0
     s = section_properties(rectangle(b, h, 3.0, 1.0), poisson_ratio=0.0)
     assert s.area == pytest.approx(b * h, rel=1e-9)
     assert s.second_moment_vertical == pytest.approx(b * h**3 / 12, rel=1e-9)
     assert s.second_moment_lateral == pytest.approx(h * b**3 / 12, rel=1e-9)
     series = sum(math.tanh(n * math.pi * h / (2 * b)) / n**5 for n in range(1, 30, 2))
-    assert s.torsion_constant == pytest.approx(h * b**3 / 3 * (1 - 192 * b / (math.pi**5 * h) * series), rel=2e-3)
-    assert (s.shear_area_vertical, s.shear_area_lateral) == pytest.approx((5 / 6 * b * h, 5 / 6 * b * h), rel=1e-3)
+    assert s.torsion_constant == pytest.approx(
+        h * b**3 / 3 * (1 - 192 * b / (math.pi**5 * h) * series), rel=2e-3
+    )
+    assert (s.shear_area_vertical, s.shear_area_lateral) == pytest.approx(
+        (5 / 6 * b * h, 5 / 6 * b * h), rel=1e-3
+    )
     assert s.centroid == pytest.approx((3.5, 2.0), rel=1e-9)
     assert s.shear_centre == pytest.approx((3.5, 2.0), rel=1e-4)
 
 
 def test_thin_box_is_bredt():
-    """J = 4 A_m^2 / sum(s / t) for a thin closed cell; its solid corners stiffen it by less than t / height."""
+    """J = 4 A_m^2 / sum(s / t) for a thin closed cell; its solid corners stiffen it by less than t
+    / height."""
     width, height, t = 2.0, 1.0, 0.04
     cell = rectangle(width - 2 * t, height - 2 * t, t, t)
     s = section_properties(rectangle(width, height), (cell,), poisson_ratio=0.0)
@@ -38,7 +44,8 @@ def test_thin_box_is_bredt():
 
 
 def test_open_channel_has_its_shear_centre_outside():
-    """Thin channel: shear centre at e = 3 b^2 / (h + 6 b) behind the web's middle line (Timoshenko)."""
+    """Thin channel: shear centre at e = 3 b^2 / (h + 6 b) behind the web's middle line
+    (Timoshenko)."""
     b, h, t = 0.5, 1.0, 0.02
     outline = [(0, 0), (b, 0), (b, t), (t, t), (t, h - t), (b, h - t), (b, h), (0, h)]
     s = section_properties(outline, poisson_ratio=0.0)

@@ -18,15 +18,27 @@ def flat(width, length, thickness, across, along, pads=(), nu=NU):
     """A plate in the plane z = 0, its strips across y."""
     y = np.linspace(width / 2, -width / 2, across + 1)
     strips = tuple(Strip(i, i + 1, thickness, "plate") for i in range(across))
-    return Shell(np.column_stack([y, 0 * y]), strips, np.linspace(0.0, length, along + 1), E, nu, RHO, pads=pads)
+    return Shell(
+        np.column_stack([y, 0 * y]),
+        strips,
+        np.linspace(0.0, length, along + 1),
+        E,
+        nu,
+        RHO,
+        pads=pads,
+    )
 
 
 def tube(width, height, thickness, length, along, sides=4, pads=(), plates=()):
     """A closed rectangular tube of middle lines width x height, corners first."""
     corners = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)]) * [width / 2, height / 2]
-    points = np.concatenate([np.linspace(corners[i], corners[(i + 1) % 4], sides + 1)[:-1] for i in range(4)])
+    points = np.concatenate(
+        [np.linspace(corners[i], corners[(i + 1) % 4], sides + 1)[:-1] for i in range(4)]
+    )
     strips = tuple(Strip(i, (i + 1) % len(points), thickness, "walls") for i in range(len(points)))
-    return Shell(points, strips, np.linspace(0.0, length, along + 1), E, NU, RHO, plates=plates, pads=pads)
+    return Shell(
+        points, strips, np.linspace(0.0, length, along + 1), E, NU, RHO, plates=plates, pads=pads
+    )
 
 
 def short(x, count, fixed=("x", "y", "z")):
@@ -38,10 +50,22 @@ def test_supported_square_plate():
     """Thin square plate held along all edges: f = pi/2 (m^2 + n^2) / a^2 sqrt(D / (rho h))."""
     a, h, n = 6.0, 0.06, 24
     stations = np.linspace(0.0, a, n + 1)
-    edge = [(x, i) for x in (0.0, a) for i in range(n + 1)] + [(x, i) for x in stations[1:-1] for i in (0, n)]
+    edge = [(x, i) for x in (0.0, a) for i in range(n + 1)] + [
+        (x, i) for x in stations[1:-1] for i in (0, n)
+    ]
     # Two corners keep the plate in its plane besides.
     pads = tuple(
-        Pad(x, 1e-3, i, 0.0, ("x", "y", "z") if x == 0.0 and i == 0 else ("x", "z") if x == 0.0 and i == n else ("z",))
+        Pad(
+            x,
+            1e-3,
+            i,
+            0.0,
+            ("x", "y", "z")
+            if x == 0.0 and i == 0
+            else ("x", "z")
+            if x == 0.0 and i == n
+            else ("z",),
+        )
         for x, i in edge
     )
     found = flat(a, a, h, n, n, pads).modes(4).frequencies_hz
@@ -50,10 +74,17 @@ def test_supported_square_plate():
 
 
 def test_cantilever_box_bends_and_twists_as_a_beam():
-    """A long thin tube, clamped at one end, plates at stations: bending 1.8751^2, torsion a quarter wave over Bredt's J."""
+    """A long thin tube, clamped at one end, plates at stations: bending 1.8751^2, torsion a quarter
+    wave over Bredt's J."""
     b, h, t, length = 2.0, 1.6, 0.05, 30.0
     stiffeners = tuple(
-        Plate(x, t, np.stack(np.meshgrid(np.linspace(b / 2, -b / 2, 5), np.linspace(h / 2, -h / 2, 5)), axis=2))
+        Plate(
+            x,
+            t,
+            np.stack(
+                np.meshgrid(np.linspace(b / 2, -b / 2, 5), np.linspace(h / 2, -h / 2, 5)), axis=2
+            ),
+        )
         for x in np.linspace(0.0, length, 11)
     )
     s = tube(b, h, t, length, 60, pads=short(0.0, 16), plates=stiffeners)
@@ -72,18 +103,28 @@ def test_cantilever_box_bends_and_twists_as_a_beam():
 
 
 def test_a_strip_bends_in_its_own_plane():
-    """A deep web, one strip, held at both ends: the drilling freedoms let coarse elements bend (simple beam with shear)."""
+    """A deep web, one strip, held at both ends: the drilling freedoms let coarse elements bend
+    (simple beam with shear)."""
     length, depth, t = 20.0, 1.0, 0.2
     z = np.linspace(depth / 2, -depth / 2, 5)
     strips = tuple(Strip(i, i + 1, t, "web") for i in range(4))
-    pads = tuple(Pad(x, 1e-3, 2, 0.0, ("x", "y", "z") if x == 0 else ("y", "z")) for x in (0.0, length))
+    pads = tuple(
+        Pad(x, 1e-3, 2, 0.0, ("x", "y", "z") if x == 0 else ("y", "z")) for x in (0.0, length)
+    )
     pads += tuple(Pad(x, 1e-3, i, 0.0, ("y",)) for x in (0.0, length) for i in (0, 4))
-    modes = Shell(np.column_stack([0 * z, z]), strips, np.linspace(0, length, 21), E, NU, RHO, pads=pads).modes(12)
+    modes = Shell(
+        np.column_stack([0 * z, z]), strips, np.linspace(0, length, 21), E, NU, RHO, pads=pads
+    ).modes(12)
     i = modes.names.index("vertical bending 1")
     i_y, area = t * depth**3 / 12, t * depth
     k = np.pi / length
     # Timoshenko's simple beam, first order in shear and rotary inertia.
-    beam = k**2 * np.sqrt(E * i_y / (RHO * area)) / (2 * np.pi) / np.sqrt(1 + k**2 * i_y / area * (1 + E / (5 / 6 * G)))
+    beam = (
+        k**2
+        * np.sqrt(E * i_y / (RHO * area))
+        / (2 * np.pi)
+        / np.sqrt(1 + k**2 * i_y / area * (1 + E / (5 / 6 * G)))
+    )
     assert modes.frequencies_hz[i] == pytest.approx(beam, rel=0.01)
 
 
@@ -109,7 +150,11 @@ def test_mass_is_that_of_the_plates():
 
 def test_held_pads_do_not_move_and_turn_freely():
     """The mean displacement over each pad is zero, while the foot over it is inclined."""
-    pads = tuple(Pad(x, 1.3, i, 0.1, ("x", "y", "z") if x == 1 else ("y", "z")) for x in (1.0, 19.0) for i in (8, 12))
+    pads = tuple(
+        Pad(x, 1.3, i, 0.1, ("x", "y", "z") if x == 1 else ("y", "z"))
+        for x in (1.0, 19.0)
+        for i in (8, 12)
+    )
     s = tube(2.0, 1.6, 0.1, 20.0, 40, pads=pads)
     first = s.modes(3).vectors.reshape(-1, 3)
     for row, _ in s._held:
@@ -120,7 +165,11 @@ def test_held_pads_do_not_move_and_turn_freely():
 
 def test_stiff_springs_are_rigid_bearings():
     def first(kind):
-        hold = {"fixed": ("x", "y", "z")} if kind == "rigid" else {"fixed": (), "stiffness": dict.fromkeys("xyz", kind)}
+        hold = (
+            {"fixed": ("x", "y", "z")}
+            if kind == "rigid"
+            else {"fixed": (), "stiffness": dict.fromkeys("xyz", kind)}
+        )
         pads = tuple(Pad(x, 0.6, i, 0.0, **hold) for x in (1.0, 19.0) for i in (8, 12))
         return tube(2.0, 1.6, 0.1, 20.0, 20, pads=pads).modes(5).frequencies_hz
 
@@ -129,10 +178,15 @@ def test_stiff_springs_are_rigid_bearings():
 
 
 def test_pads_have_a_mesh_limit():
-    """Frequencies on pads settle as the mesh is refined: the last doubling moves them less than the one before."""
+    """Frequencies on pads settle as the mesh is refined: the last doubling moves them less than the
+    one before."""
 
     def found(along):
-        pads = tuple(Pad(x, 0.8, i, 0.0, ("x", "y", "z")) for x in (0.4, 9.6) for i in (along // 5 * 2, along // 5 * 3))
+        pads = tuple(
+            Pad(x, 0.8, i, 0.0, ("x", "y", "z"))
+            for x in (0.4, 9.6)
+            for i in (along // 5 * 2, along // 5 * 3)
+        )
         s = tube(2.0, 1.6, 0.2, 10.0, along, sides=max(along // 5, 1), pads=pads)
         return s.modes(1).frequencies_hz[0]
 
@@ -142,7 +196,11 @@ def test_pads_have_a_mesh_limit():
 
 @pytest.mark.parametrize(
     "pads",
-    [(), (Pad(1.0, 0.5, 8, 0.0, ("x", "y", "z")),), tuple(Pad(x, 0.5, i, 0.0, ("y", "z")) for x in (1.0, 9.0) for i in (8, 12))],
+    [
+        (),
+        (Pad(1.0, 0.5, 8, 0.0, ("x", "y", "z")),),
+        tuple(Pad(x, 0.5, i, 0.0, ("y", "z")) for x in (1.0, 9.0) for i in (8, 12)),
+    ],
 )
 def test_mechanisms_are_refused(pads):
     with pytest.raises(InputError, match="mechanism"):
@@ -155,7 +213,10 @@ def test_pads_and_plates_off_the_shell_are_refused():
     with pytest.raises(InputError, match="length"):
         tube(2.0, 1.6, 0.1, 10.0, 10, pads=(Pad(1.0, 0.0, 8),))
     grid = np.stack(np.meshgrid(np.linspace(1, -1, 5), np.linspace(0.8, -0.8, 5)), axis=2)
-    for plate, says in ((Plate(0.123, 0.1, grid), "station"), (Plate(0.0, 0.1, 0.9 * grid), "not a point")):
+    for plate, says in (
+        (Plate(0.123, 0.1, grid), "station"),
+        (Plate(0.0, 0.1, 0.9 * grid), "not a point"),
+    ):
         with pytest.raises(InputError, match=says):
             _ = tube(2.0, 1.6, 0.1, 10.0, 10, pads=short(0.0, 16), plates=(plate,)).quads
     with pytest.raises(InputError, match="modes"):
@@ -171,9 +232,16 @@ def test_missing_library_names_the_extra(monkeypatch):
 
 
 def test_speed():
-    """Fifteen modes of a deck-sized shell within the five seconds that were asked for, of the processor."""
+    """Fifteen modes of a deck-sized shell within the five seconds that were asked for, of the
+    processor."""
     s = tube(
-        5.0, 2.0, 0.3, 36.0, 60, sides=6, pads=tuple(Pad(x, 0.6, i, 0.0, ("x", "y", "z")) for x in (0.3, 35.7) for i in (12, 18))
+        5.0,
+        2.0,
+        0.3,
+        36.0,
+        60,
+        sides=6,
+        pads=tuple(Pad(x, 0.6, i, 0.0, ("x", "y", "z")) for x in (0.3, 35.7) for i in (12, 18)),
     )
     begin = time.process_time()
     s.modes(15)

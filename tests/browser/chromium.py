@@ -10,9 +10,11 @@ from urllib.parse import urlsplit
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 HOME = ("127.0.0.1", "localhost")
 INSIDE = ("data", "blob", "about")  # schemes that reach no server
-# Names other than this machine's cannot be resolved: what a page asks for elsewhere fails, and it is recorded that it asked.
+# Names other than this machine's cannot be resolved: what a page asks for elsewhere fails, and it
+# is recorded that it asked.
 FLAGS = (
-    "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
+    "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update",
     "--disable-sync", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
 )  # fmt: skip
 
@@ -23,9 +25,14 @@ class NoBrowser(Exception):
 
 def installed():
     """Path of the browser; RAILBRIDGE_CHROMIUM names one that is not on the PATH."""
-    path = os.environ.get("RAILBRIDGE_CHROMIUM") or next(filter(None, map(shutil.which, NAMES)), None)
+    path = os.environ.get("RAILBRIDGE_CHROMIUM") or next(
+        filter(None, map(shutil.which, NAMES)), None
+    )
     if path is None:
-        raise NoBrowser(f"no browser is installed: none of {', '.join(NAMES)} is on the PATH (Debian: apt-get install chromium)")
+        raise NoBrowser(
+            f"no browser is installed: none of {', '.join(NAMES)} is on the PATH (Debian: "
+            "apt-get install chromium)"
+        )
     return path
 
 
@@ -37,7 +44,8 @@ def running():
     except ImportError as error:
         raise NoBrowser(f"playwright cannot be used: {error} (pip install -e .[test])") from None
     path = installed()
-    # Chromium refuses its sandbox to root, and containers often refuse it to everybody; pages here are our own.
+    # Chromium refuses its sandbox to root, and containers often refuse it to everybody; pages here
+    # are our own.
     boxed = getattr(os, "geteuid", lambda: 1)() != 0 and not os.environ.get("CI")
     flags = [*FLAGS] if boxed else [*FLAGS, "--no-sandbox"]
     with sync_playwright() as playwright:
@@ -51,8 +59,11 @@ def running():
             browser.close()
 
 
-# What a kernel says of a callback that raises or warns reaches no cell; it is in the messages that the page receives.
-COMPLAINT = re.compile(rb'"name":\s*"stderr",\s*"text":\s*"((?:[^"\\]|\\.)*)"|"ename":\s*"((?:[^"\\]|\\.)*)"')
+# What a kernel says of a callback that raises or warns reaches no cell; it is in the messages that
+# the page receives.
+COMPLAINT = re.compile(
+    rb'"name":\s*"stderr",\s*"text":\s*"((?:[^"\\]|\\.)*)"|"ename":\s*"((?:[^"\\]|\\.)*)"'
+)
 # JupyterLab greets the widgets of a kernel that has not loaded ipywidgets yet.
 HARMLESS = "No such comm"
 
@@ -68,7 +79,9 @@ class Record:
 
     def follow(self, context):
         context.on("request", lambda request: self.requests.append(request.url))
-        context.on("console", lambda message: self.console.append(f"{message.type}: {message.text}"))
+        context.on(
+            "console", lambda message: self.console.append(f"{message.type}: {message.text}")
+        )
         context.on("weberror", lambda error: self.uncaught.append(str(error.error)))
         context.on("page", lambda page: page.on("websocket", self._listen))
 
@@ -78,7 +91,9 @@ class Record:
 
     def _read(self, frame):
         frame = frame if isinstance(frame, bytes) else frame.encode()
-        texts = [(said or raised).decode(errors="replace") for said, raised in COMPLAINT.findall(frame)]
+        texts = [
+            (said or raised).decode(errors="replace") for said, raised in COMPLAINT.findall(frame)
+        ]
         self.kernel += [text for text in texts if not text.startswith(HARMLESS)]
 
     @property

@@ -11,7 +11,10 @@ from visit import Visit, visiting
 
 @pytest.fixture(scope="session")
 def browser():
-    """The installed Chromium. Where there is none, tests are skipped, or fail if RAILBRIDGE_BROWSER=required."""
+    """The installed Chromium.
+
+    Where there is none, tests are skipped, or fail if RAILBRIDGE_BROWSER=required.
+    """
     started = running()
     try:
         found = started.__enter__()

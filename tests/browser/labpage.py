@@ -2,7 +2,8 @@
 
 from waiting import wait_in
 
-# The notebook by its path: which widget is the current one changes while the page puts itself together.
+# The notebook by its path: which widget is the current one changes while the page puts itself
+# together.
 FIND = """window.rbNotebook = path => [...(window.jupyterapp?.shell.widgets('main') ?? [])]
     .find(widget => widget.context?.path === path && !widget.isDisposed);
 window.rbCode = path => window.rbNotebook(path)?.content.widgets.map(cell => cell.model)
@@ -16,7 +17,8 @@ OPENED = """async path => {
     return true;
 }"""
 CURRENT = "path => window.jupyterapp.shell.currentWidget?.context?.path === path"
-# Both the server and the page must say so: each is ahead of the other at times, and the badge "idle" says it too early.
+# Both the server and the page must say so: each is ahead of the other at times, and the badge
+# "idle" says it too early.
 CONNECTED = """async path => {
     const sessions = await (await fetch('/api/sessions')).json();
     const there = sessions.find(session => session.path === path)?.kernel;
@@ -27,7 +29,8 @@ CONNECTED = """async path => {
 # Every cell has its number, or one has failed and the rest were not run.
 ALL_RUN = """path => {
     const code = window.rbCode(path);
-    const outputs = model => Array.from({length: model.outputs.length}, (_, i) => model.outputs.get(i));
+    const outputs = model => Array.from(
+        {length: model.outputs.length}, (_, i) => model.outputs.get(i));
     return window.rbNotebook(path)?.sessionContext.session?.kernel?.status === 'idle'
         && (code.every(model => model.executionCount !== null)
             || code.some(model => outputs(model).some(output => output.type === 'error')));
@@ -44,7 +47,8 @@ STATE = """path => `${window.rbNotebook(path)?.sessionContext.kernelDisplayStatu
 
 
 class NotebookOnPage:
-    """One notebook, open in a page with no other beside it, its kernel there: what is run before that is dropped.
+    """One notebook, open in a page with no other beside it, its kernel there: what is run before
+    that is dropped.
 
     Parameters
     ----------
@@ -57,8 +61,12 @@ class NotebookOnPage:
     def __init__(self, page, lab, name):
         self.page = page
         self.path = f"notebooks/{name}.ipynb"
-        # The kernel is started here: a page that starts its own sometimes starts two and loses the one that it holds.
-        lab.ask("api/sessions", {"path": self.path, "name": name, "type": "notebook", "kernel": {"name": "python3"}})
+        # The kernel is started here: a page that starts its own sometimes starts two and loses the
+        # one that it holds.
+        lab.ask(
+            "api/sessions",
+            {"path": self.path, "name": name, "type": "notebook", "kernel": {"name": "python3"}},
+        )
         page.add_init_script(FIND)
         page.goto(f"{lab.url}/lab/workspaces/{name}/tree/{self.path}?token={lab.token}")
         self._wait(OPENED)
@@ -81,14 +89,17 @@ class NotebookOnPage:
         self._wait(ALL_RUN)
 
     def run_new_cell(self, above, write):
-        """Make a cell below the one that holds the element `above`, let `write()` fill it by keyboard, and run it.
+        """Make a cell below the one that holds the element `above`, let `write()` fill it by
+        keyboard, and run it.
 
         Returns
         -------
         dict
             `source` and `outputs` of the new cell.
         """
-        cell = above.locator("xpath=ancestor::*[contains(concat(' ', @class, ' '), ' jp-CodeCell ')]")
+        cell = above.locator(
+            "xpath=ancestor::*[contains(concat(' ', @class, ' '), ' jp-CodeCell ')]"
+        )
         cell.locator(".cm-content").click()
         for key in ("Escape", "b", "Enter"):
             self.page.keyboard.press(key)
@@ -99,6 +110,12 @@ class NotebookOnPage:
     def complaints(self):
         """What cells raised or warned, and what panels refuse."""
         outputs = self.page.evaluate(OUTPUTS, self.path)
-        raised = [f"{out['ename']}: {out['evalue']}" for out in outputs if out["output_type"] == "error"]
+        raised = [
+            f"{out['ename']}: {out['evalue']}" for out in outputs if out["output_type"] == "error"
+        ]
         warned = ["".join(out["text"]) for out in outputs if out.get("name") == "stderr"]
-        return raised + warned + [text for text in self.page.locator(".rb-error").all_inner_texts() if text.strip()]
+        return (
+            raised
+            + warned
+            + [text for text in self.page.locator(".rb-error").all_inner_texts() if text.strip()]
+        )

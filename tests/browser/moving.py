@@ -3,7 +3,10 @@
 from waiting import wait_in
 
 # The drawing as it stands, and the words beside it.
-DRAWN = "root => [root.querySelector('svg').outerHTML, root.querySelector('input').getAttribute('aria-valuetext')].join('|')"
+DRAWN = (
+    "root => [root.querySelector('svg').outerHTML, "
+    "root.querySelector('input').getAttribute('aria-valuetext')].join('|')"
+)
 # The same drawing over FRAMES pictures of the browser, half a second on a calm machine.
 FRAMES = 30
 STANDS = f"""async root => {{

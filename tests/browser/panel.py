@@ -1,4 +1,5 @@
-"""A panel as somebody before the screen meets it: controls to move, a picture and a sentence that follow."""
+"""A panel as somebody before the screen meets it: controls to move, a picture and a sentence that
+follow."""
 
 import json
 
@@ -10,14 +11,16 @@ STATE = """async root => {
     const image = frame.matches('img') ? frame : frame.querySelector('img');
     const words = root.querySelector('.rb-summary');
     const summary = words.innerText.trim();
-    const exact = words.querySelector('[role=status]') !== null;  // while a hand moves there are coarser results before it
+    // while a hand moves there are coarser results before it
+    const exact = words.querySelector('[role=status]') !== null;
     const error = root.querySelector('.rb-error')?.innerText.trim() ?? '';
     const controls = [...root.querySelectorAll('.widget-readout')].map(number => number.innerText)
         .concat([...root.querySelectorAll('select')].map(list => list.value)).join(', ');
     try {
         const bytes = await (await fetch(image.src)).arrayBuffer();
         const digest = new Uint8Array(await crypto.subtle.digest('SHA-256', bytes));
-        return {picture: Array.from(digest.slice(0, 8)).join('.'), width: image.naturalWidth, summary, exact, error, controls};
+        return {picture: Array.from(digest.slice(0, 8)).join('.'), width: image.naturalWidth,
+        summary, exact, error, controls};
     } catch (gone) {  // replaced between reading its address and fetching it
         return null;
     }
@@ -31,8 +34,9 @@ SETTLED = f"""async ([root, accept, quiet]) => {{
     if (text !== root.rbText) [root.rbText, root.rbSince] = [text, performance.now()];
     return now.exact && performance.now() - root.rbSince > quiet && eval(accept)(now) && now;
 }}"""
-# Whether one step of a slider is in the sentence. The train's place is not: the sentence is about the whole crossing. A
-# thousandth of a hertz may be below its last digit, though it moves the curves by a part of a pixel.
+# Whether one step of a slider is in the sentence. The train's place is not: the sentence is
+# about the whole crossing. A thousandth of a hertz may be below its last digit, though it moves
+# the curves by a part of a pixel.
 SAYS = {"first axle (m)": False, "at first (Hz)": None}
 # Playing: the slider goes on by itself, and each picture is another.
 PLAYED = f"""async ([root, slider, least, pictures]) => {{
@@ -71,7 +75,8 @@ class PanelOnPage:
     # ---- what it shows
 
     def settled(self, accept="() => true", quiet=QUIET):
-        """Wait until what is shown stands still and `accept`, a JavaScript function of it, is true; return it."""
+        """Wait until what is shown stands still and `accept`, a JavaScript function of it, is true;
+        return it."""
         what = f"a panel that stands still with {accept}"
         return wait_in(self.page, SETTLED, [self.root.element_handle(), accept, quiet], what)
 
@@ -84,26 +89,38 @@ class PanelOnPage:
 
         The summary has to differ as well (True), to be the same (False), or is left open (None).
         """
-        said = "true" if summary is None else f"(now.summary !== {json.dumps(before['summary'])}) === {json.dumps(summary)}"
+        said = (
+            "true"
+            if summary is None
+            else f"(now.summary !== {json.dumps(before['summary'])}) === {json.dumps(summary)}"
+        )
         picture = f"now.picture !== {json.dumps(before['picture'])} && now.width > 0"
         return self.settled(f"now => {said} && {picture} && now.error === ''")
 
     def back(self, start, away):
-        """Wait until the picture is not that of `away` any more, and the summary is that of `start`.
+        """Wait until the picture is not that of `away` any more, and the summary is that of
+        `start`.
 
         The picture need not be that of `start` to the bit: margins may stay wider.
         """
         said = f"now.summary === {json.dumps(start['summary'])}"
-        return self.settled(f"now => {said} && now.picture !== {json.dumps(away['picture'])} && now.error === ''")
+        return self.settled(
+            f"now => {said} && now.picture !== {json.dumps(away['picture'])} && now.error === ''"
+        )
 
     def refused(self, before):
-        """Wait until a value is refused: words where a screen reader hears them, picture and summary as they were."""
-        same = " && ".join(f"now.{what} === {json.dumps(before[what])}" for what in ("picture", "summary"))
+        """Wait until a value is refused: words where a screen reader hears them, picture and
+        summary as they were."""
+        same = " && ".join(
+            f"now.{what} === {json.dumps(before[what])}" for what in ("picture", "summary")
+        )
         now = self.settled(f"now => now.error !== '' && {same} && now.width > 0")
         assert self.alert.inner_text().strip() == now["error"]
         assert self.alert.evaluate("alert => alert.closest('.rb-error') !== null")
         picture, said = self.root.locator(".rb-picture").bounding_box(), self.alert.bounding_box()
-        assert said["height"] > 10 and said["y"] >= picture["y"] + picture["height"] - 1, "the words stand below the picture"
+        assert said["height"] > 10 and said["y"] >= picture["y"] + picture["height"] - 1, (
+            "the words stand below the picture"
+        )
         return now
 
     # ---- its controls
@@ -149,7 +166,8 @@ class PanelOnPage:
         return ("ArrowLeft", "ArrowRight") if at_end else ("ArrowRight", "ArrowLeft")
 
     def drag(self, slider, share):
-        """Take a slider's knob with the mouse to a share of its track, in small moves as a hand does."""
+        """Take a slider's knob with the mouse to a share of its track, in small moves as a hand
+        does."""
         slider.scroll_into_view_if_needed()
         knob = slider.bounding_box()
         track = slider.locator("xpath=ancestor::*[contains(@class, 'noUi-base')]").bounding_box()
@@ -162,20 +180,29 @@ class PanelOnPage:
     # ---- what is tried with it
 
     def restored(self, start):
-        """Press *Paper case*, unless it is there, and wait until controls and summary are those of `start`."""
+        """Press *Paper case*, unless it is there, and wait until controls and summary are those of
+        `start`."""
         if self.settled()["controls"] != start["controls"]:
             self.button("Paper case").click()
-        same = " && ".join(f"now.{what} === {json.dumps(start[what])}" for what in ("controls", "summary"))
+        same = " && ".join(
+            f"now.{what} === {json.dumps(start[what])}" for what in ("controls", "summary")
+        )
         return self.settled(f"now => {same} && now.error === ''")
 
     def try_controls(self, start):
-        """Move every slider by keyboard, choose every line of lists, take all back with *Paper case*, drag the first slider.
+        """Move every slider by keyboard, choose every line of lists, take all back with *Paper
+        case*, drag the first slider.
 
-        Picture and summary follow each time; what the summary does not say is known by the picture, which also comes back.
+        Picture and summary follow each time; what the summary does not say is known by the picture,
+        which also comes back.
         """
         sliders, lists = self.sliders.all(), self.lists.all()
-        shown = self.root.locator(".rb-side .widget-inline-hbox:has(.widget-label):not(.widget-label)").count()
-        assert len(sliders) + len(lists) == shown > 0, "a control that is neither a slider nor a list"
+        shown = self.root.locator(
+            ".rb-side .widget-inline-hbox:has(.widget-label):not(.widget-label)"
+        ).count()
+        assert len(sliders) + len(lists) == shown > 0, (
+            "a control that is neither a slider nor a list"
+        )
         now = start
         for slider in sliders:
             there, back = self.there_and_back(slider)
@@ -198,38 +225,56 @@ class PanelOnPage:
         assert self.number(sliders[0]) != number
 
     def try_in_a_hurry(self, start):
-        """Move every slider without waiting for any answer and press *Paper case* at once: the last word counts."""
+        """Move every slider without waiting for any answer and press *Paper case* at once: the last
+        word counts."""
         for slider in self.sliders.all():
             there, _ = self.there_and_back(slider)
             self.press(slider, {"ArrowRight": "End", "ArrowLeft": "Home"}[there])
         self.button("Paper case").click()
-        same = " && ".join(f"now.{what} === {json.dumps(start[what])}" for what in ("controls", "summary"))
+        same = " && ".join(
+            f"now.{what} === {json.dumps(start[what])}" for what in ("controls", "summary")
+        )
         self.settled(f"now => {same} && now.error === ''", quiet=LONG)
 
     def try_list(self, chosen, now):
-        """Choose each line of a list in turn; each has a picture and a sentence of its own. Return the state at its end."""
+        """Choose each line of a list in turn; each has a picture and a sentence of its own.
+
+        Return the state at its end.
+        """
         said, count = {now["summary"]}, chosen.locator("option").count()
         assert count > 1
         for line in range(1, count):
-            chosen.select_option(index=line)  # as by mouse: JupyterLab takes the arrow keys of a list for its own
+            chosen.select_option(
+                index=line
+            )  # as by mouse: JupyterLab takes the arrow keys of a list for its own
             now = self.changed(now)
             said.add(now["summary"])
         assert len(said) == count
         return now
 
     def try_player(self, start):
-        """Let a slider run by itself, pause it and stop it: pictures follow, the sentence on the whole crossing stays."""
+        """Let a slider run by itself, pause it and stop it: pictures follow, the sentence on the
+        whole crossing stays."""
         (player,) = self.root.locator(".widget-play").all()
         go, stop = player.locator("button:visible").all()
         slider = player.locator("xpath=..").get_by_role("slider")
-        low, at, high = (float(slider.get_attribute(f"aria-value{what}")) for what in ("min", "now", "max"))
+        low, at, high = (
+            float(slider.get_attribute(f"aria-value{what}")) for what in ("min", "now", "max")
+        )
         assert low < at < high - FAR
         assert go.locator("i.fa-play").is_visible()
         go.click()
-        wait_in(self.page, PLAYED, [self.root.element_handle(), slider.element_handle(), at + FAR, 4], "a slider that plays")
+        wait_in(
+            self.page,
+            PLAYED,
+            [self.root.element_handle(), slider.element_handle(), at + FAR, 4],
+            "a slider that plays",
+        )
         go.locator("i.fa-pause").click()
         wait_in(self.page, STOPPED, [slider.element_handle()], "a slider that pauses")
-        assert float(slider.get_attribute("aria-valuenow")) < high, "it was not paused: it ran to its end"
+        assert float(slider.get_attribute("aria-valuenow")) < high, (
+            "it was not paused: it ran to its end"
+        )
         paused = self.changed(start, summary=False)
         stop.click()
         self.changed(paused, summary=False)

@@ -1,7 +1,7 @@
 """Servers for the browser tests: started in a folder of their own, stopped by process id.
 
-Nothing of the user's is read or written: settings, workspaces, kernels' files and the notebooks themselves are in a temporary
-folder. Each server finds a free port by itself.
+Nothing of the user's is read or written: settings, workspaces, kernels' files and the notebooks
+themselves are in a temporary folder. Each server finds a free port by itself.
 """
 
 import json
@@ -23,14 +23,17 @@ NOTEBOOKS = ROOT / "notebooks"
 STARTS_WITHIN = 60.0  # s; a busy machine of two cores needs 10
 STOPS_WITHIN = 15.0  # s
 ANSWERS_WITHIN = 30.0  # s
-# JupyterLab asks on its first start whether it may fetch news: a question that would stand in front of the notebook.
+# JupyterLab asks on its first start whether it may fetch news: a question that would stand in front
+# of the notebook.
 NO_NEWS = {"fetchNews": "false", "checkForUpdates": False}
 
 
 def notebooks_with_panels(folder=NOTEBOOKS):
     """Names of the notebooks in which a cell makes a panel."""
     paths = sorted(folder.glob("[0-9][0-9]_*.ipynb"))
-    return [path.stem for path in paths if any("rb.panels." in cell.source for cell in code_cells(path))]
+    return [
+        path.stem for path in paths if any("rb.panels." in cell.source for cell in code_cells(path))
+    ]
 
 
 def code_cells(path):
@@ -52,7 +55,9 @@ def environment(home):
     """Variables under which a Jupyter server keeps everything it writes below one folder."""
     settings = home / "settings" / "@jupyterlab" / "apputils-extension"
     settings.mkdir(parents=True, exist_ok=True)
-    (settings / "notification.jupyterlab-settings").write_text(json.dumps(NO_NEWS), encoding="utf-8")
+    (settings / "notification.jupyterlab-settings").write_text(
+        json.dumps(NO_NEWS), encoding="utf-8"
+    )
     own = {
         "JUPYTER_CONFIG_DIR": home / "config",
         "JUPYTER_DATA_DIR": home / "data",
@@ -61,21 +66,28 @@ def environment(home):
         "JUPYTERLAB_WORKSPACES_DIR": home / "workspaces",
         "IPYTHONDIR": home / "ipython",
     }
-    return {**os.environ, **{name: str(folder) for name, folder in own.items()}, "OMP_NUM_THREADS": "1"}
+    return {
+        **os.environ,
+        **{name: str(folder) for name, folder in own.items()},
+        "OMP_NUM_THREADS": "1",
+    }
 
 
 @dataclass(frozen=True)
 class Server:
-    """A running server: its address without a slash at the end, its token, where it writes its log."""
+    """A running server: its address without a slash at the end, its token and its log file."""
 
     url: str
     token: str
     log: Path
 
     def ask(self, path, content=None, method=None):
-        """Send a request, with content a POST; return the decoded JSON, or None where there is none."""
+        """Send a request, with content a POST; return the decoded JSON, or None where there is
+        none."""
         data = None if content is None else json.dumps(content).encode()
-        request = Request(f"{self.url}/{path}", data, {"Authorization": f"token {self.token}"}, method=method)
+        request = Request(
+            f"{self.url}/{path}", data, {"Authorization": f"token {self.token}"}, method=method
+        )
         with urlopen(request, timeout=ANSWERS_WITHIN) as reply:
             body = reply.read()
         return json.loads(body) if body else None
@@ -92,7 +104,12 @@ def running(command, home, cwd):
     log = home / "server.log"
     with log.open("w", encoding="utf-8") as stream:
         process = subprocess.Popen(
-            command, cwd=cwd, env=environment(home), stdout=stream, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL
+            command,
+            cwd=cwd,
+            env=environment(home),
+            stdout=stream,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
         )
     try:
         yield process, log
@@ -106,22 +123,31 @@ def running(command, home, cwd):
 
 
 def wait_until(ready, process, log):
-    """Return what `ready()` gives as soon as it gives something; raise if the program ends or takes too long."""
+    """Return what `ready()` gives as soon as it gives something; raise if the program ends or takes
+    too long."""
     end = time.monotonic() + STARTS_WITHIN
     while time.monotonic() < end:
         if process.poll() is not None:
-            raise RuntimeError(f"the server ended with {process.returncode}:\n{log.read_text(encoding='utf-8')[-2000:]}")
+            raise RuntimeError(
+                "the server ended with "
+                f"{process.returncode}:\n{log.read_text(encoding='utf-8')[-2000:]}"
+            )
         found = ready()
         if found:
             return found
         time.sleep(0.1)
-    raise TimeoutError(f"the server did not answer within {STARTS_WITHIN:g} s:\n{log.read_text(encoding='utf-8')[-2000:]}")
+    raise TimeoutError(
+        f"the server did not answer within {STARTS_WITHIN:g} "
+        f"s:\n{log.read_text(encoding='utf-8')[-2000:]}"
+    )
 
 
 def answers(url, token=""):
     """True if something at this address answers with a page."""
     try:
-        with urlopen(Request(url, headers={"Authorization": f"token {token}"}), timeout=5.0) as reply:
+        with urlopen(
+            Request(url, headers={"Authorization": f"token {token}"}), timeout=5.0
+        ) as reply:
             return reply.status == 200
     except (URLError, ConnectionError, TimeoutError):
         return False
@@ -131,8 +157,10 @@ def answers(url, token=""):
 def jupyterlab(home, token):
     """JupyterLab on the copied notebooks of `home`, listening on this machine only."""
     command = [
-        sys.executable, "-m", "jupyterlab", "--no-browser", "--ServerApp.ip=127.0.0.1", "--ServerApp.port=0",
-        f"--IdentityProvider.token={token}", f"--ServerApp.root_dir={home}", "--ServerApp.allow_root=True",
+        sys.executable, "-m", "jupyterlab", "--no-browser", "--ServerApp.ip=127.0.0.1",
+        "--ServerApp.port=0",
+        f"--IdentityProvider.token={token}", f"--ServerApp.root_dir={home}",
+        "--ServerApp.allow_root=True",
         # Lets a test ask the page about its cells and its kernel.
         "--LabApp.expose_app_in_browser=True",
     ]  # fmt: skip
@@ -158,5 +186,7 @@ def app(home):
     """The explorer of notebook 00 as a web page, as `make app` shows it."""
     command = [sys.executable, ROOT / "tools" / "app.py", "--no-browser"]
     with running(command, home, home) as (process, log):
-        found = wait_until(lambda: re.search(r"http://[\d.:]+", log.read_text(encoding="utf-8")), process, log)
+        found = wait_until(
+            lambda: re.search(r"http://[\d.:]+", log.read_text(encoding="utf-8")), process, log
+        )
         yield Server(found.group(), "", log)

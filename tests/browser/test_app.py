@@ -1,11 +1,15 @@
-"""The explorer as a web page: shown on one screen and used, without a line of code and without a request to elsewhere."""
+"""The explorer as a web page: shown on one screen and used, without a line of code and without a
+request to elsewhere."""
 
 import pytest
 from panel import PanelOnPage
 from served import app
 from visit import visiting
 
-COMPLAINTS = "[data-mime-type='application/vnd.jupyter.stderr'], [data-mime-type='application/vnd.jupyter.error']"
+COMPLAINTS = (
+    "[data-mime-type='application/vnd.jupyter.stderr'], "
+    "[data-mime-type='application/vnd.jupyter.error']"
+)
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +34,10 @@ def start(panel):
 def test_explorer_follows_its_controls(visited, panel, start):
     panel.try_controls(panel.restored(start))
     assert visited.page.locator(COMPLAINTS).count() == 0
-    assert visited.page.locator(".jp-InputArea-editor:visible, .jp-CodeMirrorEditor:visible").count() == 0
+    assert (
+        visited.page.locator(".jp-InputArea-editor:visible, .jp-CodeMirrorEditor:visible").count()
+        == 0
+    )
     assert visited.complaints() == []
 
 

@@ -1,4 +1,5 @@
-"""Every notebook with something that moves, in JupyterLab: opened, run, and used as somebody before the screen would."""
+"""Every notebook with something that moves, in JupyterLab: opened, run, and used as somebody before
+the screen would."""
 
 import re
 
@@ -11,10 +12,12 @@ from served import notebooks_with_panels
 from visit import visiting
 
 PANELS = notebooks_with_panels()
-# A case of one's own, as a student writes it: with a step of 5 ms, 62 m/s leave ten samples in waves of 3.1 m, and not in 3 m.
+# A case of one's own, as a student writes it: with a step of 5 ms, 62 m/s leave ten samples in
+# waves of 3.1 m, and not in 3 m.
 OWN_CASE = """import railbridge as rb
 waves = {f"track.{way}.wavelength": 4.0 for way in ("vertical", "lateral")}
-rb.panels.fixed_point(rb.case("paper").replace({"run.time_step": 5e-3, "run.speed": 62.0, "train.cars": 2, **waves}))"""
+run = {"run.time_step": 5e-3, "run.speed": 62.0, "train.cars": 2}
+rb.panels.fixed_point(rb.case("paper").replace({**run, **waves}))"""
 
 
 def displacement_at_iteration(said, w, t):
@@ -34,8 +37,11 @@ def mode(said, f, ratio):
 
 
 def steady_bounce(said, force):
-    """What is left of the run-up makes the largest force of a run larger than the steady one, by one per cent."""
-    return float(re.search(r"steady bounce ([\d.]+) kN", said).group(1)) == pytest.approx(force / 1e3, rel=0.015)
+    """What is left of the run-up makes the largest force of a run larger than the steady one, by
+    one per cent."""
+    return float(re.search(r"steady bounce ([\d.]+) kN", said).group(1)) == pytest.approx(
+        force / 1e3, rel=0.015
+    )
 
 
 # Whether the summary says what the last line of the panel's code gives.
@@ -112,8 +118,12 @@ def test_the_code_gives_the_number_of_the_summary(visited, notebook, panel, star
     cell = notebook.run_new_cell(panel.root, lambda: panel.page.keyboard.press("Control+V"))
     assert cell["source"].strip() == area.input_value().strip() != ""
     (result,) = (out for out in cell["outputs"] if out["output_type"] == "execute_result")
-    values = map(float, re.findall(r"(?<![\w.])-?\d[\d.]*(?:e[+-]?\d+)?", result["data"]["text/plain"]))
-    assert SAID[name](now["summary"], *values), f"{result['data']['text/plain']} is not in: {now['summary']}"
+    values = map(
+        float, re.findall(r"(?<![\w.])-?\d[\d.]*(?:e[+-]?\d+)?", result["data"]["text/plain"])
+    )
+    assert SAID[name](now["summary"], *values), (
+        f"{result['data']['text/plain']} is not in: {now['summary']}"
+    )
     panel.button("Hide the code").click()
     area.wait_for(state="hidden")
     assert notebook.complaints() == visited.complaints() == []
@@ -121,7 +131,7 @@ def test_the_code_gives_the_number_of_the_summary(visited, notebook, panel, star
 
 @of("04_deck_modes")
 def test_a_value_that_cannot_be_is_refused_in_words(visited, notebook, panel, start):
-    """Rayleigh damping goes through two frequencies: typing the second beside the first leaves one."""
+    """Rayleigh damping takes two frequencies: typing the second beside the first leaves one."""
     now = panel.restored(start)
     first, second = panel.slider("at first (Hz)"), panel.slider("and second (Hz)")
     panel.type_number(first, panel.number(second))
@@ -138,7 +148,8 @@ def test_a_value_that_cannot_be_is_refused_in_words(visited, notebook, panel, st
 
 @of("04_deck_modes")
 def test_a_hurried_hand_is_followed_in_order(visited, notebook, panel, start):
-    """JupyterLab sends what sliders say to a thread of its own in the kernel, and what buttons say not always."""
+    """JupyterLab sends what sliders say to a thread of its own in the kernel, and what buttons say
+    not always."""
     now = panel.restored(start)
     for _ in range(2):
         panel.try_in_a_hurry(now)
@@ -147,7 +158,8 @@ def test_a_hurried_hand_is_followed_in_order(visited, notebook, panel, start):
 
 @of("06_fixed_point_iteration")
 def test_a_crossing_that_is_refused_says_why(visited, notebook, panel):
-    """A case of one's own may allow fewer values than its sliders: they are refused one by one, and the rest works."""
+    """A case of one's own may allow fewer values than its sliders: they are refused one by one, and
+    the rest works."""
     notebook.run_new_cell(panel.root, lambda: panel.page.keyboard.insert_text(OWN_CASE))
     own = PanelOnPage(panel.page.locator(".rb-panel").nth(1))
     now = own.begun()
@@ -179,4 +191,8 @@ def test_guard_sees_a_request_that_leaves_the_machine(page, record):
     page.goto("about:blank")
     page.evaluate("() => fetch('https://example.org/x.js', {mode: 'no-cors'}).catch(() => null)")
     assert record.left == ["https://example.org/x.js"]
-    assert leaves("wss://example.org/x") and not leaves("ws://127.0.0.1:8888/x") and not leaves("data:image/png;base64,AAAA")
+    assert (
+        leaves("wss://example.org/x")
+        and not leaves("ws://127.0.0.1:8888/x")
+        and not leaves("data:image/png;base64,AAAA")
+    )

@@ -1,4 +1,5 @@
-"""The static site, opened from disk: nothing is fetched, nothing is broken, formulas are drawn, nothing sticks out."""
+"""The static site, opened from disk: nothing is fetched, nothing is broken, formulas are drawn,
+nothing sticks out."""
 
 import re
 
@@ -8,7 +9,10 @@ from served import ROOT
 
 SITE = ROOT / "build" / "site"
 PAGES = sorted(path.relative_to(SITE).as_posix() for path in SITE.rglob("*.html"))
-LOADED = re.compile(r"""<(?:script|img|iframe|source|video|link)\b[^>]*?\b(?:src|href)=["']?(https?:)?//""", re.IGNORECASE)
+LOADED = re.compile(
+    r"""<(?:script|img|iframe|source|video|link)\b[^>]*?\b(?:src|href)=["']?(https?:)?//""",
+    re.IGNORECASE,
+)
 pytestmark = pytest.mark.skipif(not PAGES, reason="the site is not built: make site")
 WIDTHS = (1280, 420)  # px: a desktop, a telephone
 # Formulas are drawn, pictures are there; then what is wrong with the page, in words.
@@ -16,7 +20,8 @@ FAULTS = """async () => {
     await window.MathJax?.startup?.promise;
     document.querySelectorAll('img').forEach(image => image.loading = 'eager');
     await Promise.all([...document.images].map(image => image.decode().catch(() => null)));
-    const bad = [...document.querySelectorAll('[data-mjx-error]')].map(node => 'formula: ' + node.dataset.mjxError);
+    const bad = [...document.querySelectorAll('[data-mjx-error]')]
+        .map(node => 'formula: ' + node.dataset.mjxError);
     for (const image of document.images) {
         if (!image.naturalWidth) bad.push('picture: ' + image.src);
         if (!image.alt || image.alt.endsWith('.png')) bad.push('no text for: ' + image.src);
@@ -25,14 +30,16 @@ FAULTS = """async () => {
     if (/\\$\\$|\\\\\\[/.test(text)) bad.push('a formula was left as it is written');
     return bad;
 }"""
-# The theme hides what sticks out at the side, so the page's own width says nothing. What scrolls in a box of its own is right.
+# The theme hides what sticks out at the side, so the page's own width says nothing. What scrolls in
+# a box of its own is right.
 TOO_WIDE = """() => {
     const scrolls = node => node.tagName !== 'ARTICLE'
         && (/auto|scroll/.test(getComputedStyle(node).overflowX) || scrolls(node.parentElement));
     const boxed = node => node.closest('svg, mjx-assistive-mml') || scrolls(node.parentElement);
     return [...document.querySelectorAll('article *')]
         .filter(node => node.getBoundingClientRect().right > window.innerWidth + 1 && !boxed(node))
-        .map(node => `${node.tagName.toLowerCase()}.${node.className} sticks out of ${window.innerWidth} px`).slice(0, 3);
+        .map(node => `${node.tagName.toLowerCase()}.${node.className} sticks out of `
+            + `${window.innerWidth} px`).slice(0, 3);
 }"""
 
 
@@ -56,17 +63,26 @@ def test_pages_are_whole_without_network(page, record):
 def test_faults_are_found(page):
     page.set_viewport_size({"width": WIDTHS[1], "height": 900})
     page.goto((SITE / "index.html").as_uri())
-    page.evaluate("""() => document.querySelector('article').insertAdjacentHTML('beforeend', `<div style="width: 900px">x</div>
-        <div style="overflow-x: auto"><div style="width: 900px">y</div></div><img src="gone.png" alt="gone"><p>$$ x $$</p>`)""")
+    page.evaluate("""() => document.querySelector('article').insertAdjacentHTML('beforeend', `
+        <div style="width: 900px">x</div>
+        <div style="overflow-x: auto"><div style="width: 900px">y</div></div>
+        <img src="gone.png" alt="gone"><p>$$ x $$</p>`)""")
     assert page.evaluate(TOO_WIDE) == [f"div. sticks out of {WIDTHS[1]} px"]
     found = page.evaluate(FAULTS)
-    assert [fault.partition(":")[0] for fault in found] == ["picture", "a formula was left as it is written"]
+    assert [fault.partition(":")[0] for fault in found] == [
+        "picture",
+        "a formula was left as it is written",
+    ]
 
 
 def test_pages_name_nothing_to_be_loaded_from_elsewhere():
-    assert [name for name in PAGES if LOADED.search((SITE / name).read_text(encoding="utf-8"))] == []
+    assert [
+        name for name in PAGES if LOADED.search((SITE / name).read_text(encoding="utf-8"))
+    ] == []
     styles = [
-        path.name for path in SITE.rglob("*.css") if re.search(r"(?:url\(|@import)\s*[\"']?(?:https?:)?//", path.read_text())
+        path.name
+        for path in SITE.rglob("*.css")
+        if re.search(r"(?:url\(|@import)\s*[\"']?(?:https?:)?//", path.read_text())
     ]
     assert styles == []
 
@@ -75,7 +91,10 @@ def test_pages_name_nothing_to_be_loaded_from_elsewhere():
 def test_text_can_be_read_on_its_ground(scheme, page):
     page.emulate_media(color_scheme=scheme)
     page.goto((SITE / "index.html").as_uri())
-    ground, text = page.evaluate("() => [getComputedStyle(document.body).backgroundColor, getComputedStyle(document.body).color]")
+    ground, text = page.evaluate(
+        "() => [getComputedStyle(document.body).backgroundColor, "
+        "getComputedStyle(document.body).color]"
+    )
     dark = [sum(map(int, re.findall(r"\d+", colour)[:3])) < 3 * 128 for colour in (ground, text)]
     assert dark == [scheme == "dark", scheme == "light"]
 

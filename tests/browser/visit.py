@@ -15,7 +15,8 @@ WINDOW = {"width": 1280, "height": 900}
 
 @dataclass(frozen=True)
 class Visit:
-    """A page, the record of what it does, and the server behind it, if any, with the length of its log at the beginning."""
+    """A page, the record of what it does, and the server behind it, if any, with the length of its
+    log at the beginning."""
 
     page: Any
     record: Record
@@ -23,9 +24,15 @@ class Visit:
     log_begins: int = 0
 
     def complaints(self):
-        """Requests that left the machine, and what the page, its kernel and the server complained of so far."""
+        """Requests that left the machine, and what the page, its kernel and the server complained
+        of so far."""
         said = self.server.said()[self.log_begins :].splitlines() if self.server else []
-        return [*self.record.left, *self.record.uncaught, *self.record.kernel, *(s for s in said if "Traceback" in s)]
+        return [
+            *self.record.left,
+            *self.record.uncaught,
+            *self.record.kernel,
+            *(s for s in said if "Traceback" in s),
+        ]
 
     def keep(self, name):
         """Store what can be seen and what was written."""

@@ -1,4 +1,5 @@
-"""Every bad input gets a message that names the field, the value, the range and what to try, before anything runs."""
+"""Every bad input gets a message that names the field, the value, the range and what to try, before
+anything runs."""
 
 import re
 import shutil
@@ -19,13 +20,21 @@ DECK_TABLE = shelf.data_file("decks", "viaduct36").read_text(encoding="utf-8")
 SPRUNG = shelf.data_file("vehicles", "sprung_mass").read_text(encoding="utf-8")
 NOTCH = {"wheels": [[1, 1]], "circumference": 2.8, "offset": 0.0, "depth": 1e-3, "length": 0.05}
 WAVE = {"kind": "harmonic", "amplitude": 1e-3, "wavelength": 10.0}
-OWN_DECK = {"length": 36.0, "bending_stiffness_vertical": 8.8e10, "mass": 1e4, "damping": {"modal": 0.01}, "modes": 5}
+OWN_DECK = {
+    "length": 36.0,
+    "bending_stiffness_vertical": 8.8e10,
+    "mass": 1e4,
+    "damping": {"modal": 0.01},
+    "modes": 5,
+}
 
 
 @pytest.fixture(autouse=True)
 def _nothing_is_computed(monkeypatch):
     """A refusal comes before the first force is computed."""
-    monkeypatch.setattr(crossing, "prepare", lambda *_: pytest.fail("computed before it was refused"))
+    monkeypatch.setattr(
+        crossing, "prepare", lambda *_: pytest.fail("computed before it was refused")
+    )
 
 
 def refused(make, *words):
@@ -42,9 +51,13 @@ def paper(path, value):
     return lambda: rb.Case(PAPER).replace({path: value}).run()
 
 
-@pytest.mark.parametrize("value", [0.0, -20.0, float("nan"), float("inf"), 500.0, "20", True, [20.0], 1e-320])
+@pytest.mark.parametrize(
+    "value", [0.0, -20.0, float("nan"), float("inf"), 500.0, "20", True, [20.0], 1e-320]
+)
 def test_speed(value):
-    error = refused(paper("run.speed", value), "run.speed", "above 0 and at most 200 m/s", "72 km/h is 20")
+    error = refused(
+        paper("run.speed", value), "run.speed", "above 0 and at most 200 m/s", "72 km/h is 20"
+    )
     assert error.field == "run.speed"
 
 
@@ -54,7 +67,11 @@ def test_speed(value):
         ("run.time_step", 0.0, ["run.time_step = 0", "above 0"]),
         ("run.time_step", -1e-3, ["run.time_step = -0.001", "above 0"]),
         ("run.time_step", float("nan"), ["run.time_step", "finite"]),
-        ("run.time_step", 0.08, ["run.time_step = 0.08", "fewer than 10 samples in 14.4 m", "at most 0.072 s", "Leave"]),
+        (
+            "run.time_step",
+            0.08,
+            ["run.time_step = 0.08", "fewer than 10 samples in 14.4 m", "at most 0.072 s", "Leave"],
+        ),
         ("run.time_step", 1e-12, ["run.time_step", "too m(any|uch)", "larger step"]),
         ("run.lead_in", -1.0, ["run.lead_in = -1", "at least 0", "level track"]),
         ("run.lead_in", 1e9, ["run.lead_in", "at most"]),
@@ -65,7 +82,11 @@ def test_speed(value):
         ("run.relaxation", 0.0, ["run.relaxation = 0", "above 0 and at most 1", "aitken"]),
         ("run.relaxation", 1.5, ["run.relaxation = 1.5"]),
         ("run.relaxation", "atken", ["run.relaxation", "aitken"]),
-        ("run.loads", "wheel", ["run.loads = 'wheel'", "wheels, bogies, condensed", "Did you mean 'wheels'"]),
+        (
+            "run.loads",
+            "wheel",
+            ["run.loads = 'wheel'", "wheels, bogies, condensed", "Did you mean 'wheels'"],
+        ),
         ("run.interaction", "iterat", ["run.interaction", "Did you mean 'iterate'"]),
         ("run.excitation", "bogie", ["run.excitation"]),
         ("run.feedback", "none", ["run.feedback"]),
@@ -74,13 +95,37 @@ def test_speed(value):
         ("track.vertical.wavelength", None, ["track.vertical.wavelength", "either"]),
         ("track.vertical.half_waves", 5, ["track.vertical.wavelength", "either"]),
         ("track.vertical.amplitude", float("nan"), ["track.vertical.amplitude = nan", "finite"]),
-        ("track.vertical.amplitude", -1e-3, ["track.vertical.amplitude", "at least 0", "phase by pi"]),
+        (
+            "track.vertical.amplitude",
+            -1e-3,
+            ["track.vertical.amplitude", "at least 0", "phase by pi"],
+        ),
         ("track.vertical.kind", "harmonc", ["track.vertical.kind", "Did you mean 'harmonic'"]),
-        ("track.vertical", {"kind": "table", "x": [0, 1], "r": [0]}, ["track.vertical.r", "must hold 2"]),
-        ("track.vertical", {"kind": "table", "x": [0, 0], "r": [0, 1]}, ["track.vertical.x", "ascend", "Sort"]),
-        ("track.vertical", {"kind": "table", "x": [0], "r": [0]}, ["track.vertical.x", "two points"]),
-        ("track.vertical", {"left": WAVE, "rigth": WAVE}, ["track.vertical.rigth", "Did you mean 'right'"]),
-        ("track.vertical", [WAVE, {"kind": "none", "amplitude": 1}], [r"track.vertical\[2\].amplitude", "unknown"]),
+        (
+            "track.vertical",
+            {"kind": "table", "x": [0, 1], "r": [0]},
+            ["track.vertical.r", "must hold 2"],
+        ),
+        (
+            "track.vertical",
+            {"kind": "table", "x": [0, 0], "r": [0, 1]},
+            ["track.vertical.x", "ascend", "Sort"],
+        ),
+        (
+            "track.vertical",
+            {"kind": "table", "x": [0], "r": [0]},
+            ["track.vertical.x", "two points"],
+        ),
+        (
+            "track.vertical",
+            {"left": WAVE, "rigth": WAVE},
+            ["track.vertical.rigth", "Did you mean 'right'"],
+        ),
+        (
+            "track.vertical",
+            [WAVE, {"kind": "none", "amplitude": 1}],
+            [r"track.vertical\[2\].amplitude", "unknown"],
+        ),
         ("track.vertical", 5e-3, ["track.vertical = 0.005", "table"]),
         ("train.cars", 0, ["train.cars = 0", "at least 1"]),
         ("train.cars", -3, ["train.cars = -3"]),
@@ -99,15 +144,27 @@ def test_speed(value):
         ("train.track", 4.5, ["train.track = 4.5", "off the deck", "half width 4.8"]),
         ("train.track", -7.0, ["train.track = -7", "at least -4.8"]),
         ("train.track", "middle", ["train.track = 'middle'", "left, right"]),
-        ("train.notch", [{**NOTCH, "wheels": [[1, 9]]}], [r"train.notch\[1\].wheels", r"\(1, 9\)", "cars 1 to 8"]),
-        ("train.notch", [{**NOTCH, "wheels": [[1.5, 1]]}], [r"notch\[1\].wheels\[1\] = 1.5", "whole"]),
+        (
+            "train.notch",
+            [{**NOTCH, "wheels": [[1, 9]]}],
+            [r"train.notch\[1\].wheels", r"\(1, 9\)", "cars 1 to 8"],
+        ),
+        (
+            "train.notch",
+            [{**NOTCH, "wheels": [[1.5, 1]]}],
+            [r"notch\[1\].wheels\[1\] = 1.5", "whole"],
+        ),
         ("train.notch", [{**NOTCH, "wheels": []}], ["notch.*wheels", "pairs"]),
         ("train.notch", [{**NOTCH, "length": 3.0}], ["notch.*length = 3", "at most 2.8"]),
         ("train.notch", [{**NOTCH, "depth": -1e-3}], ["notch.*depth", "at least 0"]),
         ("train.notch", [{**NOTCH, "circumference": 0.0}], ["notch.*circumference", "above 0"]),
         ("train.notch", [{**NOTCH, "before_entrance": "no"}], ["before_entrance", "true or false"]),
         ("train.notch", NOTCH, ["train.notch", r"\[\[train.notch\]\]"]),
-        ("train.notch", [NOTCH], ["run.time_step = 0.001", "fewer than 10 samples in 0.05 m", "0.00025 s"]),
+        (
+            "train.notch",
+            [NOTCH],
+            ["run.time_step = 0.001", "fewer than 10 samples in 0.05 m", "0.00025 s"],
+        ),
         ("output.points", [40.0], [r"output.points\[1\] = 40", "at most 36 m"]),
         ("output.points", [], ["output.points", "must hold"]),
     ],
@@ -128,14 +185,20 @@ def test_what_a_case_may_not_hold(path, value, words):
         ({"section": {}}, ["never both"]),
         ({"torsional_stiffness": 1e10}, ["polar_inertia", "missing"]),
         ({"damping": {"modal": -0.01}}, ["damping.modal = -0.01", "at least 0"]),
-        ({"damping": {"ratio": -0.01, "frequencies_hz": [1, 2]}}, ["damping.ratio = -0.01", "at least 0"]),
+        (
+            {"damping": {"ratio": -0.01, "frequencies_hz": [1, 2]}},
+            ["damping.ratio = -0.01", "at least 0"],
+        ),
         ({"damping": {"ratio": 0.01, "frequencies_hz": [2, 2]}}, ["two different"]),
         ({"damping": 0.03}, ["damping = 0.03", "table"]),
         ({"width": -3.0}, ["width = -3", "above 0"]),
         ({"tracks": {"left": 3.0}, "width": 4.0}, ["tracks.left = 3", "at most 2"]),
         ({"elements": 10**6}, ["elements", "at most"]),
         ({"spans": [1.0] * 1000, "length": None}, ["spans", "1 to 30"]),
-        ({"bearing": [{"x": 0.0, "fixed": "z"}]}, ["bearing = ", "pitching", "mechanism", "Hold one more"]),
+        (
+            {"bearing": [{"x": 0.0, "fixed": "z"}]},
+            ["bearing = ", "pitching", "mechanism", "Hold one more"],
+        ),
         ({"bearing": [{"x": 40.0, "fixed": "z"}]}, [r"bearing\[1\].x = 40", "at most 36"]),
         ({"bearing": [{"x": 0.0, "fixed": "zz"}]}, ["fixed = 'zz'", "Did you mean 'z'|Known"]),
         ({"bearing": 5}, [r"\[\[bearing\]\]"]),
@@ -159,8 +222,16 @@ def test_what_a_deck_may_not_be(change, words):
         ("car_body_mass,50990,kg", "car_body_mass,50990,Kg", ["unit", "Kg"]),
         ("car_body_mass", "car_bodymass", ["row car_bodymass", "Did you mean 'car_body_mass'"]),
         ("bogie_mass", "car_body_mass", ["row car_body_mass", "more than once"]),
-        ("primary_vertical_damping,15", "primary_vertical_damping,-15", ["damping", "-15000", "at least 0"]),
-        ("primary_vertical_stiffness,2976", "primary_vertical_stiffness,0", ["held by no spring", "mechanism"]),
+        (
+            "primary_vertical_damping,15",
+            "primary_vertical_damping,-15",
+            ["damping", "-15000", "at least 0"],
+        ),
+        (
+            "primary_vertical_stiffness,2976",
+            "primary_vertical_stiffness,0",
+            ["held by no spring", "mechanism"],
+        ),
         ("secondary_lateral_stiffness,460", "secondary_lateral_stiffness,0", ["held by no spring"]),
         ("length,22.5", "length,-22.5", ["length = -22.5", "above 0"]),
         ("primary_half_width,0.98", "primary_half_width,0", ["primary_half_width = 0"]),
@@ -183,9 +254,21 @@ def test_a_car_s_table(tmp_path, old, new, words):
         ("mass = 5750.0", "mass = nan", ["mass = nan", "finite"]),
         ("mass = 5750.0", "weight = 5750.0", ["weight", "unknown key"]),
         ("mass = 5750.0", "", ["mass", "missing"]),
-        ("stiffness = [0.0, 1595e3]", "stiffness = [0.0, 0.0]", [r"spring\[1\].stiffness", "both zero"]),
-        ("stiffness = [0.0, 1595e3]\ndamping = [0.0, 0.0]", "stiffness = [0, 0]\ndamping = [0, 5.0]", ["held by no spring"]),
-        ("stiffness = [0.0, 1595e3]", "stiffness = [0.0, -1595e3]", ["stiffness", "-1595000", "at least 0"]),
+        (
+            "stiffness = [0.0, 1595e3]",
+            "stiffness = [0.0, 0.0]",
+            [r"spring\[1\].stiffness", "both zero"],
+        ),
+        (
+            "stiffness = [0.0, 1595e3]\ndamping = [0.0, 0.0]",
+            "stiffness = [0, 0]\ndamping = [0, 5.0]",
+            ["held by no spring"],
+        ),
+        (
+            "stiffness = [0.0, 1595e3]",
+            "stiffness = [0.0, -1595e3]",
+            ["stiffness", "-1595000", "at least 0"],
+        ),
         ("damping = [0.0, 0.0]", "damping = [0.0, -1.0]", ["damping", "-1", "at least 0"]),
         ("stiffness = [0.0, 1595e3]", "stiffness = 1595e3", ["stiffness = 1595000", "list"]),
         ('to = "rail"', 'to = "rial"', ["'rial'", "Did you mean 'rail'"]),
@@ -255,8 +338,16 @@ def test_things_in_the_wrong_place(name, place):
 def test_non_convergence_is_an_error_with_what_to_try(monkeypatch):
     monkeypatch.setattr(crossing, "prepare", prepare)
     deck = rb.deck_from_table("light", {**OWN_DECK, "mass": 1e3})
-    with pytest.raises(rb.NotConvergedError, match=r"^max_iterations = 3: .*relaxation = 0.5") as error:
-        rb.cross(rb.Train(rb.vehicle("xia2000_planar")), deck, speed=30.0, time_step=2e-3, max_iterations=3)
+    with pytest.raises(
+        rb.NotConvergedError, match=r"^max_iterations = 3: .*relaxation = 0.5"
+    ) as error:
+        rb.cross(
+            rb.Train(rb.vehicle("xia2000_planar")),
+            deck,
+            speed=30.0,
+            time_step=2e-3,
+            max_iterations=3,
+        )
     assert error.value.run.iterations == 3
 
 
@@ -264,11 +355,14 @@ def test_non_convergence_is_an_error_with_what_to_try(monkeypatch):
 
 scalars = st.one_of(
     st.none(), st.booleans(), st.integers(-(10**3), 10**3), st.floats(), st.text(max_size=8),
-    st.sampled_from([np.float64(3), np.int32(-1), np.nan, 1e300, -1e-300, 10**400, 3j, b"x", np.array([1.0, 2.0]), "xia2000"]),
+    st.sampled_from([np.float64(3), np.int32(-1), np.nan, 1e300, -1e-300, 10**400, 3j, b"x",
+    np.array([1.0, 2.0]), "xia2000"]),
 )  # fmt: skip
 garbage = st.recursive(
     scalars,
-    lambda inner: st.one_of(st.lists(inner, max_size=3), st.dictionaries(st.text(max_size=5), inner, max_size=3)),
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=3), st.dictionaries(st.text(max_size=5), inner, max_size=3)
+    ),
     max_leaves=6,
 )
 
@@ -283,10 +377,14 @@ def leaves(tables, path=""):
 FULL = {
     "deck": {**OWN_DECK, "width": 9.0, "tracks": {"left": 2.4}, "name": "own",
              "bearing": [{"x": 0.0, "fixed": "x z"}, {"x": 36.0, "fixed": "z"}], "elements": 40},
-    "train": {"vehicle": "xia2000_planar", "cars": 1, "car_spacing": 22.5, "track": "left", "notch": [NOTCH]},
-    "track": {"vertical": WAVE, "lateral": {"left": {"kind": "table", "x": [0, 9], "r": [0, 1e-3]}, "right": WAVE}},
-    "run": {"speed": 20.0, "time_step": 2.5e-4, "loads": "wheels", "interaction": "iterate", "tolerance": 1e-6, "lead_in": 10.0,
-            "tail": 1.0, "max_iterations": 9, "iterations": 2, "relaxation": 0.5, "excitation": "wheels", "feedback": "all"},
+    "train": {"vehicle": "xia2000_planar", "cars": 1, "car_spacing": 22.5, "track": "left",
+    "notch": [NOTCH]},
+    "track": {"vertical": WAVE, "lateral": {"left": {"kind": "table", "x": [0, 9], "r": [0, 1e-3]},
+    "right": WAVE}},
+    "run": {"speed": 20.0, "time_step": 2.5e-4, "loads": "wheels", "interaction": "iterate",
+    "tolerance": 1e-6, "lead_in": 10.0,
+            "tail": 1.0, "max_iterations": 9, "iterations": 2, "relaxation": 0.5,
+            "excitation": "wheels", "feedback": "all"},
     "output": {"points": [18.0]},
 }  # fmt: skip
 
@@ -321,7 +419,10 @@ def test_files_with_a_mangled_line(tmp_path, data, kind):
     lines = text.splitlines()
     i = data.draw(st.integers(0, len(lines) - 1))
     how = data.draw(st.sampled_from(["drop", "double", "swap", "cut", "insert", "number", "comma"]))
-    line, odd = lines[i], data.draw(st.sampled_from(["0", "-1", "nan", "inf", "1e400", "1e-9", "1e25"]))
+    line, odd = (
+        lines[i],
+        data.draw(st.sampled_from(["0", "-1", "nan", "inf", "1e400", "1e-9", "1e25"])),
+    )
     cut = data.draw(st.integers(0, max(len(line) - 1, 0)))
     new = {
         "drop": [], "double": [line, line], "swap": [line[::-1]], "cut": [line[:cut]],
@@ -340,7 +441,10 @@ def test_files_with_a_mangled_line(tmp_path, data, kind):
         assert np.all(np.isfinite(frequencies))
 
 
-@pytest.mark.parametrize("blob", [b"", b"\x00\xff\xfe", b"PK\x03\x04", "ü".encode("latin-1"), b"\xef\xbb\xbf", b"a" * 200_000])
+@pytest.mark.parametrize(
+    "blob",
+    [b"", b"\x00\xff\xfe", b"PK\x03\x04", "ü".encode("latin-1"), b"\xef\xbb\xbf", b"a" * 200_000],
+)
 @pytest.mark.parametrize("suffix", ["csv", "toml"])
 def test_files_that_are_something_else(tmp_path, blob, suffix):
     path = tmp_path / f"mine.{suffix}"

@@ -92,7 +92,11 @@ def test_quiet_says_nothing_and_old_results_are_replaced(here, capsys):
     Path("results").mkdir()
     for name in ("summary.json", "wheels.csv", "mine.txt"):
         Path("results", name).write_text("old")
-    assert command(capsys, "run", "case.toml", "--out", "results", "-q", "--no-histories") == (0, [], [])
+    assert command(capsys, "run", "case.toml", "--out", "results", "-q", "--no-histories") == (
+        0,
+        [],
+        [],
+    )
     assert set(os.listdir("results")) == {"summary.json", "mine.txt"}
     assert Path("results/mine.txt").read_text() == "old"
     assert json.loads(Path("results/summary.json").read_text())["converged"]
@@ -102,7 +106,12 @@ def test_keys_can_be_changed_on_the_command_line(here, capsys):
     changes = ["--set", "run.speed=20", "--set", "run.interaction=rigid", "--set", "train.cars = 2"]
     code, _, _ = command(capsys, "run", "case.toml", "--out", "r", *changes)
     summary = json.loads(Path("r/summary.json").read_text())
-    assert (code, summary["run"]["speed"], summary["run"]["interaction"], summary["converged"]) == (0, 20.0, "rigid", None)
+    assert (code, summary["run"]["speed"], summary["run"]["interaction"], summary["converged"]) == (
+        0,
+        20.0,
+        "rigid",
+        None,
+    )
     assert "--set" in refused(capsys, "run", "case.toml", "--out", "r", "--set", "run.speed")
     assert "run.sped" in refused(capsys, "run", "case.toml", "--out", "r", "--set", "run.sped=3")
 
@@ -111,10 +120,23 @@ def test_a_starter_is_written_runs_and_is_left_alone(here, capsys):
     code, out, err = command(capsys, "new", "mine.toml")
     assert (code, err) == (0, []) and "railbridge run mine.toml" in out[0]
     text = Path("mine.toml").read_text(encoding="utf-8")
-    assert all("#" in line or "=" in line or line.startswith("[") or not line for line in text.splitlines())
+    assert all(
+        "#" in line or "=" in line or line.startswith("[") or not line for line in text.splitlines()
+    )
     VALID.validate(tomllib.loads(text))
     assert (
-        command(capsys, "run", "mine.toml", "--out", "r", "-q", "--set", "run.time_step=4e-3", "--set", "run.tolerance=1e-3")[0]
+        command(
+            capsys,
+            "run",
+            "mine.toml",
+            "--out",
+            "r",
+            "-q",
+            "--set",
+            "run.time_step=4e-3",
+            "--set",
+            "run.tolerance=1e-3",
+        )[0]
         == 0
     )
     assert "exists already" in refused(capsys, "new", "mine.toml")
@@ -140,7 +162,15 @@ def test_every_choice_that_the_starter_leaves_out_is_valid(here):
             content["train"] = {"axles": [0.0, 3.0, 11.0, 14.0], "loads": [2e5] * 4} | {key: value}
         VALID.validate(content)
         rb.Case(content)
-    assert {"time_step", "loads", "axles", "lateral", "relaxation", "tracks", "polar_inertia"} <= tried
+    assert {
+        "time_step",
+        "loads",
+        "axles",
+        "lateral",
+        "relaxation",
+        "tracks",
+        "polar_inertia",
+    } <= tried
 
 
 def test_help_shows_examples_files_and_exit_codes(capsys):
@@ -194,8 +224,16 @@ def test_what_is_no_case_file_is_refused(here, capsys, content, words):
         ("modal = 0.02", "modal = 7", "deck.damping.modal = 7"),
         ("modes = 3", 'bearing = [{ x = 0.0, fixed = "z" }]', "deck.bearing = "),
         ("length = 12.0", 'file = "viaduct36"', "deck.bending_stiffness_vertical"),
-        ('vehicle = "xia2000_planar"', 'vehicle = "xia2000_planer"', "train.vehicle = 'xia2000_planer': no such vehicle"),
-        ('vehicle = "xia2000_planar"', 'vehicle = "cars/mine.csv"', "train.vehicle = 'cars/mine.csv': no such file"),
+        (
+            'vehicle = "xia2000_planar"',
+            'vehicle = "xia2000_planer"',
+            "train.vehicle = 'xia2000_planer': no such vehicle",
+        ),
+        (
+            'vehicle = "xia2000_planar"',
+            'vehicle = "cars/mine.csv"',
+            "train.vehicle = 'cars/mine.csv': no such file",
+        ),
         ("[train]", "[[train]]", "several trains"),
         ("wavelength = 10.0", "wavelength = 0.0", "track.vertical.wavelength = 0.0"),
         ('"harmonic"', '"harmonc"', "track.vertical.kind = 'harmonc'"),
@@ -212,13 +250,25 @@ def test_a_bad_case_is_refused_with_the_path_of_the_key(here, capsys, before, af
 
 
 def test_too_large_a_run_is_refused_with_the_estimate(here, capsys):
-    line = refused(capsys, "run", "case.toml", "--out", "r", "--set", "run.time_step=2e-6", "--set", "train.cars=2")
+    line = refused(
+        capsys,
+        "run",
+        "case.toml",
+        "--out",
+        "r",
+        "--set",
+        "run.time_step=2e-6",
+        "--set",
+        "train.cars=2",
+    )
     assert re.search(r"run\.time_step = 2e-06: .*about [\d.]+ GB", line)
     assert os.listdir() == ["case.toml"]
 
 
 def test_missing_case_and_unwritable_folder_are_refused_before_computing(here, capsys, monkeypatch):
-    monkeypatch.setattr(rb.Case, "run", lambda *_: pytest.fail("computed before the folder was tried"))
+    monkeypatch.setattr(
+        rb.Case, "run", lambda *_: pytest.fail("computed before the folder was tried")
+    )
     assert "no such file" in refused(capsys, "run", "nothing.toml", "--out", "r")
     assert "Known: paper" in refused(capsys, "run", "nothing", "--out", "r")
     for out in ("case.toml", "case.toml/r", "/proc/r/r", "r\0r", "", "r" * 300):
@@ -227,7 +277,9 @@ def test_missing_case_and_unwritable_folder_are_refused_before_computing(here, c
 
 
 def test_no_convergence_is_told_and_written(here, capsys):
-    code, _, err = command(capsys, "run", "case.toml", "--out", "r", "--set", "run.max_iterations=1")
+    code, _, err = command(
+        capsys, "run", "case.toml", "--out", "r", "--set", "run.max_iterations=1"
+    )
     assert (code, len(err)) == (3, 1)
     assert "run.max_iterations" in err[0]
     summary = json.loads(Path("r/summary.json").read_text())
@@ -237,7 +289,12 @@ def test_no_convergence_is_told_and_written(here, capsys):
 
 @pytest.mark.parametrize("existing", [True, False])
 @pytest.mark.parametrize(
-    ("error", "code"), [(KeyboardInterrupt(), 130), (MemoryError(), 1), (OSError(28, "No space left on device", "wheels.csv"), 1)]
+    ("error", "code"),
+    [
+        (KeyboardInterrupt(), 130),
+        (MemoryError(), 1),
+        (OSError(28, "No space left on device", "wheels.csv"), 1),
+    ],
 )
 def test_what_stops_in_the_middle_leaves_nothing(here, capsys, monkeypatch, error, code, existing):
     def broken(run, points):
@@ -258,16 +315,29 @@ def test_what_stops_in_the_middle_leaves_nothing(here, capsys, monkeypatch, erro
 
 @pytest.mark.skipif(os.name == "nt", reason="signals differ")
 def test_ctrl_c_stops_the_command_with_130(here):
-    long = ["--set", "train.cars=40", "--set", "run.time_step=1e-3", "--set", "run.interaction=direct"]
+    long = [
+        "--set",
+        "train.cars=40",
+        "--set",
+        "run.time_step=1e-3",
+        "--set",
+        "run.interaction=direct",
+    ]
     program = [sys.executable, "-m", "railbridge", "run", "case.toml", "--out", "r", *long]
 
     def listen():
-        # A shell that starts the tests in the background has SIGINT ignored, and children inherit that.
+        # A shell that starts the tests in the background has SIGINT ignored, and children inherit
+        # that.
         signal.signal(signal.SIGINT, signal.SIG_DFL)
 
-    with subprocess.Popen(program, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=listen) as process:
+    with subprocess.Popen(
+        program, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=listen
+    ) as process:
         deadline = time.monotonic() + 60
-        while not any(p.name.startswith(".railbridge-") for p in here.iterdir()) and time.monotonic() < deadline:
+        while (
+            not any(p.name.startswith(".railbridge-") for p in here.iterdir())
+            and time.monotonic() < deadline
+        ):
             time.sleep(0.05)
         time.sleep(0.3)
         process.send_signal(signal.SIGINT)
@@ -290,7 +360,10 @@ def test_progress_is_one_line_in_a_terminal(monkeypatch, capsys):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: False)
     for now[0] in (20.0, 21.0, 31.0):
         progress(f"iteration {now[0]}")
-    assert capsys.readouterr().err == "railbridge: iteration 20.0, 20 s\nrailbridge: iteration 31.0, 31 s\n"
+    assert (
+        capsys.readouterr().err
+        == "railbridge: iteration 20.0, 20 s\nrailbridge: iteration 31.0, 31 s\n"
+    )
 
 
 def test_a_warning_is_one_line(here, capsys):
@@ -303,12 +376,17 @@ def test_a_warning_is_one_line(here, capsys):
 
 def test_files_of_a_case_are_found_beside_it(here, capsys, monkeypatch):
     vehicles = shelf.data_file("vehicles", "xia2000_planar").read_text(encoding="utf-8")
-    deck = "length = 12.0\nbending_stiffness_vertical = 5e9\nmass = 8000.0\nmodes = 3\ndamping = { modal = 0.02 }\n"
+    deck = (
+        "length = 12.0\nbending_stiffness_vertical = 5e9\nmass = 8000.0\nmodes = 3\ndamping "
+        "= { modal = 0.02 }\n"
+    )
     Path("job/parts").mkdir(parents=True)
     Path("job/parts/mine.toml").write_text(vehicles, encoding="utf-8")
     Path("job/bridge.toml").write_text(deck)
     text = f'[deck]\nfile = "bridge.toml"\n{CASE[CASE.index("[train]") :]}'
-    mixed = 'cars = ["parts/mine.toml", { vehicle = "parts/mine.toml", count = 2 }, "xia2000_planar"]'
+    mixed = (
+        'cars = ["parts/mine.toml", { vehicle = "parts/mine.toml", count = 2 }, "xia2000_planar"]'
+    )
     Path("job/case.toml").write_text(text.replace('vehicle = "xia2000_planar"', mixed))
     Path("elsewhere").mkdir()
     monkeypatch.chdir("elsewhere")
@@ -320,11 +398,12 @@ def test_files_of_a_case_are_found_beside_it(here, capsys, monkeypatch):
     assert case.replace({"run.speed": 20.0}).deck is case.deck
 
 
-# ---- the schema ----------------------------------------------------------------------------------------------------------
+# ---- the schema
 
 
 SECTION = {
-    "youngs_modulus": 35e9, "poisson_ratio": 0.2, "density": 2500.0, "area": 4.8, "second_moment_vertical": 2.5,
+    "youngs_modulus": 35e9, "poisson_ratio": 0.2, "density": 2500.0, "area": 4.8,
+    "second_moment_vertical": 2.5,
     "second_moment_lateral": 25.0, "torsion_constant": 5.6,
 }  # fmt: skip
 NOTCH = {"wheels": [[1, 1]], "circumference": 2.7, "offset": 1.0, "depth": 1e-3, "length": 0.5}
@@ -341,12 +420,18 @@ def test_schema_is_a_schema_and_every_shipped_case_fits_it():
 @pytest.mark.parametrize(
     "change",
     [
-        {"deck.file": "viaduct36"}, {"deck.length": None}, {"deck.spans": [6.0, 6.0]}, {"deck.mass": None}, {"deck.mass": -1.0},
-        {"deck.section": SECTION}, {"deck.damping": None}, {"deck.damping": 0.02}, {"deck.damping.ratio": 0.1}, {"deck.mas": 1},
-        {"train.vehicle": None}, {"train.axles": [0.0]}, {"train.cars": ["xia2000"]}, {"train.cars": 0}, {"train.cars": "two"},
-        {"train.notch": [{**NOTCH, "deep": 1}]}, {"track.vertical.kind": "x"}, {"track.vertical.half_waves": 3.0},
-        {"track.up": HARMONIC}, {"run.speed": None}, {"run.speed": 0.0}, {"run.speed": True}, {"run.loads": "wheel"},
-        {"run.relaxation": "newton"}, {"run.sped": 1.0}, {"output.points": []}, {"output.point": [1.0]}, {"extra": {"a": 1}},
+        {"deck.file": "viaduct36"}, {"deck.length": None}, {"deck.spans": [6.0, 6.0]},
+        {"deck.mass": None}, {"deck.mass": -1.0},
+        {"deck.section": SECTION}, {"deck.damping": None}, {"deck.damping": 0.02},
+        {"deck.damping.ratio": 0.1}, {"deck.mas": 1},
+        {"train.vehicle": None}, {"train.axles": [0.0]}, {"train.cars": ["xia2000"]},
+        {"train.cars": 0}, {"train.cars": "two"},
+        {"train.notch": [{**NOTCH, "deep": 1}]}, {"track.vertical.kind": "x"},
+        {"track.vertical.half_waves": 3.0},
+        {"track.up": HARMONIC}, {"run.speed": None}, {"run.speed": 0.0}, {"run.speed": True},
+        {"run.loads": "wheel"},
+        {"run.relaxation": "newton"}, {"run.sped": 1.0}, {"output.points": []},
+        {"output.point": [1.0]}, {"extra": {"a": 1}},
     ],
     ids=str,
 )  # fmt: skip
@@ -370,21 +455,42 @@ def _changed(content, change):
     return content
 
 
-# ---- anything at all -----------------------------------------------------------------------------------------------------
+# ---- anything at all
 
 WORDS = st.sampled_from(
-    sorted({*SCHEMA["properties"], *(p for d in SCHEMA["$defs"].values() for p in d.get("properties", {})), "kind", "x"})
+    sorted(
+        {
+            *SCHEMA["properties"],
+            *(p for d in SCHEMA["$defs"].values() for p in d.get("properties", {})),
+            "kind",
+            "x",
+        }
+    )
 )
 LEAVES = (
     st.sampled_from(
-        ["xia2000_planar", "viaduct36", "harmonic", "none", "table", "direct", "rigid", "wheels", "left", "", "a/b.toml"]
+        [
+            "xia2000_planar",
+            "viaduct36",
+            "harmonic",
+            "none",
+            "table",
+            "direct",
+            "rigid",
+            "wheels",
+            "left",
+            "",
+            "a/b.toml",
+        ]
     )
     | st.integers(-3, 60)
     | st.floats(allow_nan=True, allow_infinity=True)
     | st.sampled_from([0.0, 1e-3, 0.02, 1.0, 12.0, 5e9, 8000.0, 1e300])
     | st.booleans()
 )
-VALUES = st.recursive(LEAVES, lambda v: st.lists(v, max_size=3) | st.dictionaries(WORDS, v, max_size=4), max_leaves=8)
+VALUES = st.recursive(
+    LEAVES, lambda v: st.lists(v, max_size=3) | st.dictionaries(WORDS, v, max_size=4), max_leaves=8
+)
 
 
 @st.composite
@@ -452,9 +558,17 @@ def test_random_files_never_give_a_traceback(tmp_path, data):
 @given(mutated())
 def test_mutated_cases_that_load_also_run(tmp_path_factory, content):
     case = loaded_or_refused(content)
-    if case is None or len(case.train.wheels) > 40 or (case.deck.length + case.train.length) / case.settings.speed > 20.0:
+    if (
+        case is None
+        or len(case.train.wheels) > 40
+        or (case.deck.length + case.train.length) / case.settings.speed > 20.0
+    ):
         return
-    if case.settings.lead_in / case.settings.speed > 20.0 or case.settings.tail > 20.0 or case.settings.time_step < 1e-3:
+    if (
+        case.settings.lead_in / case.settings.speed > 20.0
+        or case.settings.tail > 20.0
+        or case.settings.time_step < 1e-3
+    ):
         return
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -468,7 +582,23 @@ def test_mutated_cases_that_load_also_run(tmp_path_factory, content):
 @settings(max_examples=60)
 @given(
     st.lists(
-        st.sampled_from(["run", "new", "list", "check", "schema", "case.toml", "--out", "-q", "--set", "a=b", "", "\0", "é"]),
+        st.sampled_from(
+            [
+                "run",
+                "new",
+                "list",
+                "check",
+                "schema",
+                "case.toml",
+                "--out",
+                "-q",
+                "--set",
+                "a=b",
+                "",
+                "\0",
+                "é",
+            ]
+        ),
         max_size=4,
     )
 )
@@ -481,14 +611,20 @@ def test_random_arguments_never_give_a_traceback(tmp_path_factory, arguments):
         assert stop.code == 2
 
 
-# ---- the page that describes it ------------------------------------------------------------------------------------------
+# ---- the page that describes it
 
 
 def test_the_page_on_cases_names_every_key_and_its_example_runs():
     page = (Path(__file__).resolve().parents[2] / "docs" / "case.md").read_text(encoding="utf-8")
     words = set(re.findall(r"\w+", " ".join(re.findall(r"`([^`\n]+)`", page))))
-    wanted = {p for d in SCHEMA["$defs"].values() for p in d.get("properties", {})} | set(SCHEMA["properties"])
-    summary = rb.case("paper").replace({"train.cars": 1, "run.time_step": 4e-3, "run.interaction": "rigid"}).summary()
+    wanted = {p for d in SCHEMA["$defs"].values() for p in d.get("properties", {})} | set(
+        SCHEMA["properties"]
+    )
+    summary = (
+        rb.case("paper")
+        .replace({"train.cars": 1, "run.time_step": 4e-3, "run.interaction": "rigid"})
+        .summary()
+    )
 
     def names(value):
         if isinstance(value, dict):

@@ -22,7 +22,11 @@ def command(capsys, *arguments):
 
 
 def files(folder):
-    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+    return {
+        p.relative_to(folder).as_posix(): p.read_bytes()
+        for p in sorted(folder.rglob("*"))
+        if p.is_file()
+    }
 
 
 @pytest.fixture
@@ -52,11 +56,16 @@ def test_everything_is_copied_and_nothing_else(folder):
 def test_cells_and_outputs_are_those_of_the_suite(folder):
     """Only links may differ, and only in text cells."""
     for path in folder.glob("*.ipynb"):
-        ours, copy = (nbformat.read(p, as_version=4) for p in (lessons.suite_root() / "notebooks" / path.name, path))
+        ours, copy = (
+            nbformat.read(p, as_version=4)
+            for p in (lessons.suite_root() / "notebooks" / path.name, path)
+        )
         nbformat.validate(copy)
         plain = [re.sub(r"\]\([^()\s]*\)|[][]", "", cell.source) for cell in copy.cells]
         assert plain == [re.sub(r"\]\([^()\s]*\)|[][]", "", cell.source) for cell in ours.cells]
-        for cell in (cell for nb in (ours, copy) for cell in nb.cells if cell.cell_type == "markdown"):
+        for cell in (
+            cell for nb in (ours, copy) for cell in nb.cells if cell.cell_type == "markdown"
+        ):
             cell.source = ""
         assert ours == copy
 
@@ -65,7 +74,11 @@ def test_every_link_of_a_copy_leads_to_a_copy(folder):
     for path in [*folder.rglob("*.ipynb"), *folder.rglob("*.md")]:
         texts = [path.read_text(encoding="utf-8")]
         if path.suffix == ".ipynb":
-            texts = [cell.source for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "markdown"]
+            texts = [
+                cell.source
+                for cell in nbformat.read(path, as_version=4).cells
+                if cell.cell_type == "markdown"
+            ]
         for target in re.findall(r"\]\((?!\w+:)([^()#\s]+)", "\n".join(texts)):
             assert (path.parent / target).is_file(), (path.name, target)
 
@@ -98,7 +111,9 @@ def test_an_edited_copy_is_kept_without_force(folder, newer, capsys):
     assert code == 0 and out[0] == f"kept      {NOTEBOOK}"
     assert "--force" in out[2]
     assert (folder / NOTEBOOK).read_bytes() == b"my work"
-    assert command(capsys, folder)[1][0] == f"kept      {NOTEBOOK}", "it stays edited, however often it is asked for"
+    assert command(capsys, folder)[1][0] == f"kept      {NOTEBOOK}", (
+        "it stays edited, however often it is asked for"
+    )
 
 
 def test_force_replaces_an_edited_copy_and_keeps_it_beside(folder, capsys):
@@ -117,11 +132,15 @@ def test_a_file_that_was_there_before_is_not_a_copy(tmp_path, capsys):
     (tmp_path / "notes.txt").write_bytes(b"notes")
     code, out, _ = command(capsys, tmp_path)
     assert code == 0 and out[0] == f"kept      {NOTEBOOK}"
-    assert (tmp_path / NOTEBOOK).read_bytes() == b"somebody's own" and (tmp_path / "notes.txt").exists()
+    assert (tmp_path / NOTEBOOK).read_bytes() == b"somebody's own" and (
+        tmp_path / "notes.txt"
+    ).exists()
     assert NOTEBOOK not in json.loads((tmp_path / lessons.MANIFEST).read_text())
 
 
-@pytest.mark.parametrize("record", [None, "", "{", "[1]", '{"03_rigid_deck_forces.ipynb": 3}', "\udcff"])
+@pytest.mark.parametrize(
+    "record", [None, "", "{", "[1]", '{"03_rigid_deck_forces.ipynb": 3}', "\udcff"]
+)
 def test_without_a_readable_record_every_difference_is_kept(folder, newer, capsys, record):
     if record is None:
         (folder / lessons.MANIFEST).unlink()
@@ -136,7 +155,10 @@ def test_without_a_readable_record_every_difference_is_kept(folder, newer, capsy
 def test_the_current_folder_will_do(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert command(capsys, ".")[0] == 0
-    assert (tmp_path / NOTEBOOK).is_file() and set(files(tmp_path)) == {*lessons.contents(), lessons.MANIFEST}
+    assert (tmp_path / NOTEBOOK).is_file() and set(files(tmp_path)) == {
+        *lessons.contents(),
+        lessons.MANIFEST,
+    }
 
 
 def test_a_deleted_copy_comes_back(folder, capsys):
@@ -156,7 +178,9 @@ def test_a_deleted_copy_comes_back(folder, capsys):
         ("taken", "is a file where a folder of the suite goes"),
     ],
 )
-def test_a_bad_folder_is_refused_in_one_line_and_nothing_is_written(tmp_path, monkeypatch, capsys, name, words):
+def test_a_bad_folder_is_refused_in_one_line_and_nothing_is_written(
+    tmp_path, monkeypatch, capsys, name, words
+):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "a.txt").write_text("text")
     (tmp_path / "full" / NOTEBOOK).mkdir(parents=True)
@@ -177,7 +201,9 @@ def test_a_folder_of_the_suite_is_refused(capsys):
     assert sorted(p.name for p in root.iterdir()) == before and not (root / "data" / "new").exists()
 
 
-@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="the administrator may write anywhere")
+@pytest.mark.skipif(
+    os.name == "nt" or os.geteuid() == 0, reason="the administrator may write anywhere"
+)
 def test_a_folder_that_may_not_be_written_to_is_refused(tmp_path, capsys):
     tmp_path.chmod(0o500)
     code, _, err = command(capsys, tmp_path / "mine")
@@ -187,7 +213,9 @@ def test_a_folder_that_may_not_be_written_to_is_refused(tmp_path, capsys):
 
 @pytest.mark.parametrize("existing", [False, True])
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
-def test_what_stops_in_the_middle_leaves_everything_as_it_was(folder, tmp_path, newer, capsys, monkeypatch, error, existing):
+def test_what_stops_in_the_middle_leaves_everything_as_it_was(
+    folder, tmp_path, newer, capsys, monkeypatch, error, existing
+):
     target = folder if existing else tmp_path / "deep" / "other"
     before = files(tmp_path)
     write, calls = type(target).write_bytes, []

@@ -1,4 +1,5 @@
-"""A case is data: it goes through replace, get, code and files unchanged, and runs like the objects it stands for."""
+"""A case is data: it goes through replace, get, code and files unchanged, and runs like the objects
+it stands for."""
 
 import os
 
@@ -10,7 +11,13 @@ from railbridge.cases import shelf
 
 PAPER = rb.case("paper")
 SMALL = {
-    "deck": {"length": 30.0, "bending_stiffness_vertical": 5e10, "mass": 1e4, "damping": {"modal": 0.01}, "modes": 6},
+    "deck": {
+        "length": 30.0,
+        "bending_stiffness_vertical": 5e10,
+        "mass": 1e4,
+        "damping": {"modal": 0.01},
+        "modes": 6,
+    },
     "train": {"vehicle": "xia2000_planar"},
     "run": {"speed": 30.0, "time_step": 4e-3, "iterations": 1},
 }
@@ -22,23 +29,46 @@ def changed(**tables):
 
 def test_the_paper_s_case_is_its_objects():
     run = PAPER.replace({"train.cars": 2, "run.iterations": 3}).run()
-    track = rb.Track(rb.Harmonic(5e-3, wavelength=14.4), rb.Harmonic(2e-3, wavelength=14.4, phase=np.pi / 2))
+    track = rb.Track(
+        rb.Harmonic(5e-3, wavelength=14.4), rb.Harmonic(2e-3, wavelength=14.4, phase=np.pi / 2)
+    )
     train = rb.Train(rb.vehicle("xia2000"), cars=2, car_spacing=22.5)
     own = rb.cross(
-        train, rb.deck("viaduct36"), track, speed=20.0, loads="condensed", time_step=1e-3, track_offset="left", iterations=3
+        train,
+        rb.deck("viaduct36"),
+        track,
+        speed=20.0,
+        loads="condensed",
+        time_step=1e-3,
+        track_offset="left",
+        iterations=3,
     )
     assert np.array_equal(run.wheel_forces, own.wheel_forces)
-    assert np.array_equal(run.displacement(18.0)["displacement_z"], own.displacement(18.0)["displacement_z"])
+    assert np.array_equal(
+        run.displacement(18.0)["displacement_z"], own.displacement(18.0)["displacement_z"]
+    )
     assert PAPER.train.cars == 8 and PAPER.points.tolist() == [18.0]
 
 
 def test_replace_and_get():
-    case = PAPER.replace({"run.speed": 22.0, "track.vertical.wavelength": 15.0, "run.lead_in": 300.0, "track.lateral": None})
+    case = PAPER.replace(
+        {
+            "run.speed": 22.0,
+            "track.vertical.wavelength": 15.0,
+            "run.lead_in": 300.0,
+            "track.lateral": None,
+        }
+    )
     assert case.get("run.speed") == 22.0 and case.options["speed"] == 22.0
     assert case.track.vertical.wavelength == 15.0
     assert case.get("track.lateral") is None and case.get("no.such.path") is None
-    assert PAPER.get("run.speed") == 20.0 and PAPER.track.lateral is not None  # the old one is untouched
-    old = {p: PAPER.get(p) for p in ("run.speed", "track.vertical.wavelength", "run.lead_in", "track.lateral")}
+    assert (
+        PAPER.get("run.speed") == 20.0 and PAPER.track.lateral is not None
+    )  # the old one is untouched
+    old = {
+        p: PAPER.get(p)
+        for p in ("run.speed", "track.vertical.wavelength", "run.lead_in", "track.lateral")
+    }
     back = case.replace(old)
     assert back.content == PAPER.content
     taken = PAPER.get("track")
@@ -57,7 +87,10 @@ def test_content_given_is_not_kept_by_reference():
     "case",
     [
         PAPER.replace({"train.cars": 1, "run.iterations": 1, "run.time_step": 4e-3}),
-        changed(train={"cars": np.int64(2), "car_spacing": np.float32(23.0)}, run={"speed": np.float64(25.0)}),
+        changed(
+            train={"cars": np.int64(2), "car_spacing": np.float32(23.0)},
+            run={"speed": np.float64(25.0)},
+        ),
         changed(output={"points": np.array([3.0, 15.0])}),
     ],
 )
@@ -71,7 +104,9 @@ def test_code_builds_the_same_case(case):
 def test_every_kind_of_track():
     table = {"kind": "table", "x": [0.0, 5.0, 9.0], "r": [0.0, 1e-3, 0.0]}
     wave = {"kind": "harmonic", "amplitude": 1e-3, "length": 36.0, "half_waves": 5}
-    case = changed(track={"vertical": {"left": [table, wave], "right": {"kind": "none"}}, "lateral": wave})
+    case = changed(
+        track={"vertical": {"left": [table, wave], "right": {"kind": "none"}}, "lateral": wave}
+    )
     x = np.array([2.5])
     rail = case.track.rail("vertical", "left")
     assert rail.value(x) == pytest.approx(5e-4 + 1e-3 * np.sin(2 * np.pi * 2.5 / 14.4))
@@ -82,22 +117,44 @@ def test_every_kind_of_track():
 def test_a_measured_track_can_be_crossed():
     rng = np.random.default_rng(0)
     x = np.linspace(-50, 60, 300)
-    run = changed(track={"vertical": {"kind": "table", "x": x, "r": 1e-3 * rng.normal(size=300)}}, run={"time_step": 1e-3}).run()
-    assert np.abs(run.wheel_forces).max() > 1.15 * rb.vehicle("xia2000_planar").contacts[0].static_load
+    run = changed(
+        track={"vertical": {"kind": "table", "x": x, "r": 1e-3 * rng.normal(size=300)}},
+        run={"time_step": 1e-3},
+    ).run()
+    assert (
+        np.abs(run.wheel_forces).max() > 1.15 * rb.vehicle("xia2000_planar").contacts[0].static_load
+    )
 
 
 def test_trains_of_all_kinds():
     mixed = dict(SMALL)
-    mixed["train"] = {"cars": ["xia2000_planar", {"vehicle": "sprung_mass", "count": 2}, "xia2000_planar"]}
-    assert [v.name for v in rb.Case(mixed).train.vehicles] == ["xia2000_planar", "sprung_mass", "sprung_mass", "xia2000_planar"]
+    mixed["train"] = {
+        "cars": ["xia2000_planar", {"vehicle": "sprung_mass", "count": 2}, "xia2000_planar"]
+    }
+    assert [v.name for v in rb.Case(mixed).train.vehicles] == [
+        "xia2000_planar",
+        "sprung_mass",
+        "sprung_mass",
+        "xia2000_planar",
+    ]
     mixed["train"] = {"axles": [0.0, 2.5], "loads": [1e5, 1e5], "track": 0.5}
     case = rb.Case(mixed)
     assert isinstance(case.train, rb.AxleTrain) and case.options["track_offset"] == 0.5
 
 
 def test_notches():
-    notch = {"wheels": [[1, 1], [1, 3]], "circumference": 2.8, "offset": 1.0, "depth": 1e-3, "length": 0.2}
-    content = {**SMALL, "train": {**SMALL["train"], "notch": [notch]}, "run": {"speed": 30.0, "iterations": 1}}
+    notch = {
+        "wheels": [[1, 1], [1, 3]],
+        "circumference": 2.8,
+        "offset": 1.0,
+        "depth": 1e-3,
+        "length": 0.2,
+    }
+    content = {
+        **SMALL,
+        "train": {**SMALL["train"], "notch": [notch]},
+        "run": {"speed": 30.0, "iterations": 1},
+    }
     case = rb.Case(content)
     assert case.train.notches[0].wheels == ((1, 1), (1, 3))
     assert case.run().settings.time_step <= 0.2 / 20 / 30.0 * (1 + 1e-12)
@@ -105,7 +162,10 @@ def test_notches():
 
 def test_files(tmp_path):
     path = tmp_path / "my case.toml"
-    path.write_text('[deck]\nfile = "viaduct36"\nmodes = 5\n[train]\nvehicle = "xia2000"\n[run]\nspeed = 30\n', encoding="utf-8")
+    path.write_text(
+        '[deck]\nfile = "viaduct36"\nmodes = 5\n[train]\nvehicle = "xia2000"\n[run]\nspeed = 30\n',
+        encoding="utf-8",
+    )
     case = rb.case(path)
     assert len(case.deck.frequencies_hz) == 5 and case.points.tolist() == [18.0]
     assert rb.case(str(path)).content == case.content
@@ -141,7 +201,13 @@ def test_cases_compare_by_their_content():
 
 def test_code_of_a_point_at_the_very_end_runs():
     tables = {
-        "deck": {"length": 33.33337, "bending_stiffness_vertical": 8e10, "mass": 1e4, "damping": {"modal": 0.01}, "modes": 3},
+        "deck": {
+            "length": 33.33337,
+            "bending_stiffness_vertical": 8e10,
+            "mass": 1e4,
+            "damping": {"modal": 0.01},
+            "modes": 3,
+        },
         "train": {"axles": [0.0], "loads": [1e5]},
         "run": {"speed": 20.0},
         "output": {"points": [33.33337]},

@@ -9,7 +9,8 @@ from railbridge.beams.bearings import Bearing
 from railbridge.cases import objects as decks
 
 SECTION = {
-    "youngs_modulus": 35e9, "poisson_ratio": 0.2, "density": 2500.0, "area": 4.8, "second_moment_vertical": 2.553,
+    "youngs_modulus": 35e9, "poisson_ratio": 0.2, "density": 2500.0, "area": 4.8,
+    "second_moment_vertical": 2.553,
     "second_moment_lateral": 25.53, "torsion_constant": 5.59,
 }  # fmt: skip
 EI, EA, G = 35e9 * 2.553, 35e9 * 4.8, 35e9 / 2.4
@@ -37,23 +38,51 @@ def beam_of(deck):
 
 def test_bearings_of_a_file_stand_where_it_says():
     deck = decks.deck_from_table("b", TABLE)
-    assert deck.bearings == ((0.0, 1.5, -1.3), (0.0, -1.5, -1.3), (36.0, 1.5, -1.3), (36.0, -1.5, -1.3))
+    assert deck.bearings == (
+        (0.0, 1.5, -1.3),
+        (0.0, -1.5, -1.3),
+        (36.0, 1.5, -1.3),
+        (36.0, -1.5, -1.3),
+    )
     assert deck.supports == (0.0, 36.0)
     assert beam_of(deck).bearings[0] == Bearing(0.0, ("y", "z"), 1.5, -1.3, {"x": 6e9})
     assert [b.held for b in beam_of(deck).bearings] == [("x", "y", "z"), ("z",), ("y", "z"), ("z",)]
-    same = rb.Beam("b", (36.0,), 12e3, EI, 35e9 * 25.53, G * 5.59, EA, 2500 * 28.083, bearings=beam_of(deck).bearings)
+    same = rb.Beam(
+        "b",
+        (36.0,),
+        12e3,
+        EI,
+        35e9 * 25.53,
+        G * 5.59,
+        EA,
+        2500 * 28.083,
+        bearings=beam_of(deck).bearings,
+    )
     assert deck.frequencies_hz == pytest.approx(same.deck(20).frequencies_hz, rel=1e-12)
 
 
 def test_switches_of_a_file_are_off_unless_given():
     usual = decks.deck_from_table("b", changed())
-    assert (beam_of(usual).shear_stiffness_vertical, beam_of(usual).rotary_inertia_vertical) == (None, None)
-    assert (beam_of(usual).continuous, usual.track_height, beam_of(usual).centroid_height) == (True, 0.0, 0.0)
+    assert (beam_of(usual).shear_stiffness_vertical, beam_of(usual).rotary_inertia_vertical) == (
+        None,
+        None,
+    )
+    assert (beam_of(usual).continuous, usual.track_height, beam_of(usual).centroid_height) == (
+        True,
+        0.0,
+        0.0,
+    )
     section = {**SECTION, "shear_area_vertical": 1.4, "shear_area_lateral": 3.0}
-    deck = decks.deck_from_table("b", changed(section=section, rotary_inertia=True, track_height=1.1, centroid_height=0.2))
+    deck = decks.deck_from_table(
+        "b", changed(section=section, rotary_inertia=True, track_height=1.1, centroid_height=0.2)
+    )
     beam = beam_of(deck)
-    assert (beam.shear_stiffness_vertical, beam.shear_stiffness_lateral) == pytest.approx((G * 1.4, G * 3.0))
-    assert (beam.rotary_inertia_vertical, beam.rotary_inertia_lateral) == pytest.approx((2500 * 2.553, 2500 * 25.53))
+    assert (beam.shear_stiffness_vertical, beam.shear_stiffness_lateral) == pytest.approx(
+        (G * 1.4, G * 3.0)
+    )
+    assert (beam.rotary_inertia_vertical, beam.rotary_inertia_lateral) == pytest.approx(
+        (2500 * 2.553, 2500 * 25.53)
+    )
     assert (deck.track_height, beam.centroid_height) == (1.1, 0.2)
     assert deck.frequencies_hz[0] < usual.frequencies_hz[0]
     stiff = {
@@ -75,7 +104,9 @@ def test_spans_that_do_not_run_through():
         {"x": 20.0, "fixed": "x y z roll", "span": 2},
         {"x": 40.0, "fixed": "y z roll"},
     ]
-    told = decks.deck_from_table("b", {**table, "spans": [20.0, 20.0], "continuous": False, "bearing": own})
+    told = decks.deck_from_table(
+        "b", {**table, "spans": [20.0, 20.0], "continuous": False, "bearing": own}
+    )
     assert told.frequencies_hz == pytest.approx(deck.frequencies_hz, rel=1e-12)
 
 
@@ -85,23 +116,47 @@ def test_spans_that_do_not_run_through():
         ({"bearing": {"x": 0.0}}, r"deck b: bearing = .*must be a list of tables"),
         ({"bearing": [{"fixed": "z"}]}, r"deck b: bearing\[1\]\.x: is missing"),
         ({"bearing": [{"x": 0.0}]}, r"deck b: bearing\[1\]\.fixed: is missing"),
-        ({"bearing": [{"x": 0.0, "fixed": 3}]}, r"bearing\[1\]\.fixed = 3: must list some of x y z"),
+        (
+            {"bearing": [{"x": 0.0, "fixed": 3}]},
+            r"bearing\[1\]\.fixed = 3: must list some of x y z",
+        ),
         ({"bearing": [{"x": 0.0, "fixed": "x w"}]}, r"bearing\[1\]\.fixed = 'w'"),
-        ({"bearing": [{"x": 0.0, "fixed": "z", "y": 5.0}]}, r"bearing\[1\]\.y = 5.0: is off the deck, half width 4.8 m"),
+        (
+            {"bearing": [{"x": 0.0, "fixed": "z", "y": 5.0}]},
+            r"bearing\[1\]\.y = 5.0: is off the deck, half width 4.8 m",
+        ),
         ({"bearing": [{"x": 0.0, "fixed": "z", "z": -1300.0}]}, r"bearing\[1\]\.z = -1300.0"),
         ({"bearing": [{"x": 40.0, "fixed": "z"}]}, r"bearing\[1\]\.x = 40.0"),
         ({"bearing": [{"x": 0.0, "stiffness": {"z": -1.0}}]}, r"bearing\[1\]\.stiffness.z = -1.0"),
-        ({"bearing": [{"x": 0.0, "stiffness": 6e9}]}, r"bearing\[1\]\.stiffness = 6000000000.0: must be a table"),
-        ({"bearing": [{"x": 0.0, "fixed": "z", "stifness": {}}]}, r"bearing\[1\]\.stifness: unknown key"),
+        (
+            {"bearing": [{"x": 0.0, "stiffness": 6e9}]},
+            r"bearing\[1\]\.stiffness = 6000000000.0: must be a table",
+        ),
+        (
+            {"bearing": [{"x": 0.0, "fixed": "z", "stifness": {}}]},
+            r"bearing\[1\]\.stifness: unknown key",
+        ),
         ({"bearing": TABLE["bearing"][1:]}, r"deck b: bearing = .*sliding along x"),
-        ({"bearing": [*TABLE["bearing"], TABLE["bearing"][0]]}, r"given to two bearings in one place"),
-        ({"bearing": [{"x": 0.0, "fixed": "z", "span": 1}]}, r"bearing\[1\]\.span = 1: can only be told of simple spans"),
+        (
+            {"bearing": [*TABLE["bearing"], TABLE["bearing"][0]]},
+            r"given to two bearings in one place",
+        ),
+        (
+            {"bearing": [{"x": 0.0, "fixed": "z", "span": 1}]},
+            r"bearing\[1\]\.span = 1: can only be told of simple spans",
+        ),
         ({"continuous": "no"}, r"continuous = 'no': must be true or false"),
         ({"rotary_inertia": 3.0}, r"rotary_inertia = 3.0: must be true or false"),
-        ({"rotary_inertia_vertical": 3.0}, r"rotary_inertia_vertical = 3.0: a section is given too"),
+        (
+            {"rotary_inertia_vertical": 3.0},
+            r"rotary_inertia_vertical = 3.0: a section is given too",
+        ),
         ({"track_height": 1800.0}, r"track_height = 1800.0"),
         ({"centroid_height": "low"}, r"centroid_height = 'low'"),
-        ({"section": {**SECTION, "shear_area_vertical": 0.0}}, r"section.shear_area_vertical = 0.0"),
+        (
+            {"section": {**SECTION, "shear_area_vertical": 0.0}},
+            r"section.shear_area_vertical = 0.0",
+        ),
     ],
     ids=str,
 )
@@ -111,7 +166,15 @@ def test_bad_decks_are_refused_by_name(change, message):
 
 
 def test_rotary_inertia_needs_a_section_or_numbers():
-    table = {"length": 30.0, "mass": 1e4, "bending_stiffness_vertical": 5e10, "damping": {"modal": 0.01}, "rotary_inertia": True}
-    with pytest.raises(rb.InputError, match="rotary_inertia = True: follows from a section only") as error:
+    table = {
+        "length": 30.0,
+        "mass": 1e4,
+        "bending_stiffness_vertical": 5e10,
+        "damping": {"modal": 0.01},
+        "rotary_inertia": True,
+    }
+    with pytest.raises(
+        rb.InputError, match="rotary_inertia = True: follows from a section only"
+    ) as error:
         decks.deck_from_table("b", table)
     assert "rotary_inertia_vertical" in error.value.remedy

@@ -13,11 +13,19 @@ from railbridge.results import ENVELOPE
 from railbridge.settings import bytes_needed
 
 KEYS = {
-    "vehicle_frequencies_hz", "deck_frequencies_hz", "deck_mode_names", "remarks", "converged", "iterations", "changes",
+    "vehicle_frequencies_hz", "deck_frequencies_hz", "deck_mode_names", "remarks", "converged",
+    "iterations", "changes",
     "deviation_percent",
-    "run", "wheel_force_z", "wheel_unloading", "points", "envelope", "reactions", "car_body", "self_weight",
+    "run", "wheel_force_z", "wheel_unloading", "points", "envelope", "reactions", "car_body",
+    "self_weight",
 }  # fmt: skip
-COARSE = {"train.cars": 1, "run.loads": "wheels", "run.time_step": 4e-3, "run.tolerance": 1e-6, "run.tail": 0.3}
+COARSE = {
+    "train.cars": 1,
+    "run.loads": "wheels",
+    "run.time_step": 4e-3,
+    "run.tolerance": 1e-6,
+    "run.tail": 0.3,
+}
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +42,13 @@ def found(run):
 def plain_deck():
     """A beam without lateral and torsional data, axle loads on it."""
     content = {
-        "deck": {"length": 20.0, "bending_stiffness_vertical": 2e10, "mass": 9000.0, "damping": {"modal": 0.01}, "modes": 6},
+        "deck": {
+            "length": 20.0,
+            "bending_stiffness_vertical": 2e10,
+            "mass": 9000.0,
+            "damping": {"modal": 0.01},
+            "modes": 6,
+        },
         "train": {"axles": [0.0, 3.0], "loads": [2e5, 1e5]},
         "run": {"speed": 30.0, "time_step": 2e-3},
         "output": {"points": [10.0]},
@@ -46,7 +60,9 @@ def test_keys_are_stable_and_the_text_is_strict_json(found):
     assert set(found) == KEYS
     assert set(found["points"][0]) == {"x", *QUANTITIES}
     assert set(found["envelope"]) == set(ENVELOPE)
-    assert [set(r) for r in found["reactions"]] == [{"x", "force_x", "force_y", "force_z", "moment_x"}] * 2
+    assert [set(r) for r in found["reactions"]] == [
+        {"x", "force_x", "force_y", "force_z", "moment_x"}
+    ] * 2
     assert set(found["points"][0]["displacement_z"]) == {"min", "max", "static", "dynamic_factor"}
     assert json.loads(to_json(found)) == found
 
@@ -57,12 +73,19 @@ def test_extremes_are_those_of_the_histories_at_their_time(run, found):
         for name, pick in (("min", np.min), ("max", np.max)):
             entry = point["displacement_z"][name]
             assert entry["value"] == pick(history["displacement_z"])
-            assert history["displacement_z"][np.argmin(np.abs(run.time - entry["t"]))] == entry["value"]
+            assert (
+                history["displacement_z"][np.argmin(np.abs(run.time - entry["t"]))]
+                == entry["value"]
+            )
     moment = found["points"][1]["moment_vertical"]["min"]["value"]
     assert moment == pytest.approx(run.section_forces(18.0).extreme("moment_vertical")[0])
     wheel = found["wheel_force_z"]["max"]
     at = np.argmin(np.abs(run.time - wheel["t"]))
-    assert run.wheel_force(wheel["car"], wheel["wheel"])["force_z"][at] == wheel["value"] == run.wheel_forces[:, 1].max()
+    assert (
+        run.wheel_force(wheel["car"], wheel["wheel"])["force_z"][at]
+        == wheel["value"]
+        == run.wheel_forces[:, 1].max()
+    )
     unloading = found["wheel_unloading"]["max"]
     assert unloading["value"] == pytest.approx(1 + wheel["value"] / run.train.wheels[0].static_load)
     assert 0.1 < unloading["value"] < 0.2
@@ -78,14 +101,17 @@ def test_envelope_meets_the_points_and_the_reactions(run, found):
         # 9 m and 18 m are stations.
         for point in found["points"]:
             at = stations["x"].index(point["x"])
-            assert stations["min"][at] == pytest.approx(point[name]["min"]["value"], rel=1e-9, abs=1e-12)
+            assert stations["min"][at] == pytest.approx(
+                point[name]["min"]["value"], rel=1e-9, abs=1e-12
+            )
     torque = found["envelope"]["torsion"]["stations"]
     ends = [r["moment_x"]["max"]["value"] for r in found["reactions"]]
     assert [-torque["min"][0], torque["max"][-1]] == pytest.approx(ends, rel=1e-6)
 
 
 def test_static_value_is_statics(found, plain_deck):
-    # One car on one span: the worst place of four equal axles of two bogies for the displacement at mid-span, by hand.
+    # One car on one span: the worst place of four equal axles of two bogies for the displacement at
+    # mid-span, by hand.
     length, stiffness = 36.0, 35e9 * 2.553
     load = 585.76e3 / 4
 
@@ -97,22 +123,32 @@ def test_static_value_is_statics(found, plain_deck):
     axles = np.array([0.0, 2.5, 15.6, 18.1])
     by_hand = -load * max(sum(sag(f - a) for a in axles) for f in first)
     assert found["points"][1]["displacement_z"]["static"] == pytest.approx(by_hand, rel=1e-4)
-    # Axle loads of 200 and 100 kN 3 m apart on 20 m: the moment at mid-span peaks with the heavy one there.
+    # Axle loads of 200 and 100 kN 3 m apart on 20 m: the moment at mid-span peaks with the heavy
+    # one there.
     summary = plain_deck.summary()
-    assert summary["points"][0]["moment_vertical"]["static"] == pytest.approx(-(2e5 * 5.0 + 1e5 * 3.5), rel=1e-9)
-    # The reaction peaks as the second axle enters, or as the first leaves: at the far end the heavy one alone counts fully.
+    assert summary["points"][0]["moment_vertical"]["static"] == pytest.approx(
+        -(2e5 * 5.0 + 1e5 * 3.5), rel=1e-9
+    )
+    # The reaction peaks as the second axle enters, or as the first leaves: at the far end the heavy
+    # one alone counts fully.
     near, far = (r["force_z"]["static"] for r in summary["reactions"])
     assert [near, far] == pytest.approx([1e5 + 2e5 * 17 / 20, 2e5 + 1e5 * 17 / 20], rel=1e-6)
 
 
 def test_continuous_deck_and_places_where_nothing_can_be(plain_deck):
-    case = plain_deck.replace({"deck.length": None, "deck.spans": [20.0, 20.0]} | {"output.points": [8.0, 0.0, 40.0]})
+    case = plain_deck.replace(
+        {"deck.length": None, "deck.spans": [20.0, 20.0]} | {"output.points": [8.0, 0.0, 40.0]}
+    )
     summary = case.summary()
-    # Two equal spans: the middle bearing carries more than an end, and the moment at an end is nothing.
+    # Two equal spans: the middle bearing carries more than an end, and the moment at an end is
+    # nothing.
     near, middle, far = (r["force_z"]["static"] for r in summary["reactions"])
     assert middle > max(near, far) and near == pytest.approx(262.67e3, rel=1e-4)
     for end in summary["points"][1:]:
-        assert (end["moment_vertical"]["static"], end["moment_vertical"]["dynamic_factor"]) == (0.0, None)
+        assert (end["moment_vertical"]["static"], end["moment_vertical"]["dynamic_factor"]) == (
+            0.0,
+            None,
+        )
         assert end["shear_vertical"]["dynamic_factor"] == pytest.approx(1.0, abs=0.1)
     assert summary["points"][0]["moment_vertical"]["static"] < 0.0
 
@@ -123,7 +159,9 @@ def test_a_deck_of_modes_only_has_no_section_forces():
     train = rb.Train(rb.vehicle("xia2000_planar"))
     options = {"speed": 20.0, "time_step": 4e-3, "interaction": "rigid", "track_offset": "left"}
     found = [summarize(rb.cross(train, deck, **options), [18.0]) for deck in (whole, bare)]
-    statics = [[f["points"][0][n]["static"] for n in ("displacement_z", "rotation_x")] for f in found]
+    statics = [
+        [f["points"][0][n]["static"] for n in ("displacement_z", "rotation_x")] for f in found
+    ]
     assert statics[1] == pytest.approx(statics[0], rel=5e-3)
     assert found[1]["points"][0]["moment_vertical"] is None
     assert found[1]["reactions"] == []
@@ -131,7 +169,9 @@ def test_a_deck_of_modes_only_has_no_section_forces():
 
 
 def test_a_slow_train_gives_a_dynamic_factor_of_one(plain_deck):
-    summary = plain_deck.replace({"run.speed": 0.5, "run.time_step": 0.02, "deck.damping.modal": 0.2}).summary()
+    summary = plain_deck.replace(
+        {"run.speed": 0.5, "run.time_step": 0.02, "deck.damping.modal": 0.2}
+    ).summary()
     for name in ("displacement_z", "moment_vertical"):
         assert summary["points"][0][name]["dynamic_factor"] == pytest.approx(1.0, abs=2e-3)
 
@@ -159,8 +199,12 @@ def test_only_an_iteration_converges(interaction):
 
 def test_self_weight_stands_apart(found):
     weight = 12000.0 * 9.81
-    assert found["self_weight"]["displacement_z"][1] == pytest.approx(-5 * weight * 36**4 / (384 * 35e9 * 2.553), rel=1e-6)
-    assert found["self_weight"]["moment_vertical"][1] == pytest.approx(-weight * 36**2 / 8, rel=1e-6)
+    assert found["self_weight"]["displacement_z"][1] == pytest.approx(
+        -5 * weight * 36**4 / (384 * 35e9 * 2.553), rel=1e-6
+    )
+    assert found["self_weight"]["moment_vertical"][1] == pytest.approx(
+        -weight * 36**2 / 8, rel=1e-6
+    )
     assert found["self_weight"]["force_z"] == pytest.approx([weight * 18] * 2, rel=1e-6)
 
 
@@ -201,7 +245,13 @@ def test_histories_start_with_t_and_name_their_units(run):
 
 
 def test_a_run_that_blew_up_is_still_written():
-    deck = {"length": 10.0, "bending_stiffness_vertical": 1e8, "mass": 40.0, "damping": {"modal": 0.0}, "modes": 4}
+    deck = {
+        "length": 10.0,
+        "bending_stiffness_vertical": 1e8,
+        "mass": 40.0,
+        "damping": {"modal": 0.0},
+        "modes": 4,
+    }
     options = {"speed": 20.0, "time_step": 4e-3, "max_iterations": 12}
     case = rb.Case({"deck": deck, "train": {"vehicle": "xia2000"}, "run": options})
     with np.errstate(all="ignore"), pytest.raises(rb.NotConvergedError) as error:
@@ -230,5 +280,7 @@ def test_the_papers_case_in_numbers():
     assert point["moment_vertical"]["min"]["value"] == pytest.approx(-5.526e6, rel=0.01)
     assert point["moment_lateral"]["max"]["value"] == pytest.approx(62e3, rel=0.02)
     assert envelope["torsion"]["max"]["value"] == pytest.approx(2.071e6, rel=0.02)
-    assert max(r["force_z"]["max"]["value"] for r in summary["reactions"]) == pytest.approx(865e3, rel=0.02)
+    assert max(r["force_z"]["max"]["value"] for r in summary["reactions"]) == pytest.approx(
+        865e3, rel=0.02
+    )
     assert point["displacement_z"]["static"] == pytest.approx(-6.534e-3, rel=1e-3)

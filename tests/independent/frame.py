@@ -1,7 +1,9 @@
-"""A frame program of its own: a straight deck of textbook two-node elements, lumped masses, bearings as springs, dense matrices.
+"""A frame program of its own: a straight deck of textbook two-node elements, lumped masses,
+bearings as springs, dense matrices.
 
-Freedoms at a node, all at the deck axis: u, v, w, theta_x, theta_y, theta_z. Nothing is eliminated: what is rigid is a very stiff
-spring at the end of a rigid arm. Stiffness of the elements from Przemieniecki (1968), table 5.1 and section 5.6.
+Freedoms at a node, all at the deck axis: u, v, w, theta_x, theta_y, theta_z. Nothing is eliminated:
+what is rigid is a very stiff spring at the end of a rigid arm. Stiffness of the elements from
+Przemieniecki (1968), table 5.1 and section 5.6.
 """
 
 from dataclasses import dataclass, field
@@ -14,7 +16,8 @@ RIGID = 1e16
 
 
 def arm(y, z):
-    """Motion (three shifts, three turns) of a point at (y, z) of a section from the freedoms at the axis, shape (6, 6)."""
+    """Motion (three shifts, three turns) of a point at (y, z) of a section from the freedoms at the
+    axis, shape (6, 6)."""
     rows = np.eye(6)
     rows[:3, 3:] = [[0.0, z, -y], [-z, 0.0, 0.0], [y, 0.0, 0.0]]
     return rows
@@ -30,7 +33,8 @@ def _bending(stiffness, shear, h, sign):
 
 @dataclass
 class Frame:
-    """A deck of equal elements between given bearings: (x, y, z, {direction from 0 to 5: stiffness})."""
+    """A deck of equal elements between given bearings: (x, y, z, {direction from 0 to 5:
+    stiffness})."""
 
     length: float
     count: int
@@ -53,8 +57,12 @@ class Frame:
         element = np.zeros((12, 12))
         element[np.ix_([0, 6], [0, 6])] += self.axial / h * np.array([[1, -1], [-1, 1]])
         element[np.ix_([3, 9], [3, 9])] += self.torsion / h * np.array([[1, -1], [-1, 1]])
-        element[np.ix_([1, 5, 7, 11], [1, 5, 7, 11])] += _bending(self.lateral, self.shear_lateral, h, 1)
-        element[np.ix_([2, 4, 8, 10], [2, 4, 8, 10])] += _bending(self.vertical, self.shear_vertical, h, -1)
+        element[np.ix_([1, 5, 7, 11], [1, 5, 7, 11])] += _bending(
+            self.lateral, self.shear_lateral, h, 1
+        )
+        element[np.ix_([2, 4, 8, 10], [2, 4, 8, 10])] += _bending(
+            self.vertical, self.shear_vertical, h, -1
+        )
         # Axial force and bending are those of the centroid, shear and torsion those of the axis.
         along = np.eye(12)
         along[0, 4] = along[6, 10] = self.centroid
@@ -83,18 +91,26 @@ class Frame:
         """Lowest natural frequencies, Hz."""
         # Turning without inertia makes the mass singular, so the inverse squares are sought.
         largest = [len(self.stiffness) - count, len(self.stiffness) - 1]
-        stiffness = self.stiffness + self.rows.T @ (np.minimum(self.springs, 1e14)[:, None] * self.rows)
+        stiffness = self.stiffness + self.rows.T @ (
+            np.minimum(self.springs, 1e14)[:, None] * self.rows
+        )
         inverse = eigh(self.mass_matrix, stiffness, eigvals_only=True, subset_by_index=largest)
         return np.sort(1 / np.sqrt(inverse)) / (2 * np.pi)
 
     def under(self, x, load):
-        """Displacements of all freedoms under six forces and moments at the axis at x, and what every bearing exerts on the deck.
+        """Displacements of all freedoms under six forces and moments at the axis at x, and what
+        every bearing exerts on the deck.
 
         The bearings' forces are unknowns beside the displacements: stiff springs cost no digits.
         """
         size, scale = len(self.stiffness), 1e10
         force = np.zeros(size + len(self.keys))
         force[self.at(x)] = load
-        whole = np.block([[self.stiffness, -scale * self.rows.T], [scale * self.rows, scale**2 * np.diag(1 / self.springs)]])
+        whole = np.block(
+            [
+                [self.stiffness, -scale * self.rows.T],
+                [scale * self.rows, scale**2 * np.diag(1 / self.springs)],
+            ]
+        )
         found = np.linalg.solve(whole, force)
         return found[:size], dict(zip(self.keys, scale * found[size:], strict=True))

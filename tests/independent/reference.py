@@ -1,7 +1,9 @@
-"""An independent solution of train and deck: the coupled differential equations, integrated at tight tolerance.
+"""An independent solution of train and deck: the coupled differential equations, integrated at
+tight tolerance.
 
-It shares nothing with the package but the parameter files: the planar car's equations and the beam's modes are written here
-from the book, and `scipy.integrate` walks through them from one event (an axle enters or leaves) to the next.
+It shares nothing with the package but the parameter files: the planar car's equations and the
+beam's modes are written here from the book, and `scipy.integrate` walks through them from one event
+(an axle enters or leaves) to the next.
 """
 
 import csv
@@ -19,11 +21,14 @@ def car_parameters():
     """Table 1 of the paper in SI, by name."""
     scale = {"kg": 1.0, "kg m2": 1.0, "m": 1.0, "kN/m": 1e3, "kN s/m": 1e3}
     with (DATA / "vehicles" / "xia2000.csv").open(encoding="utf-8") as file:
-        return {row["name"]: float(row["value"]) * scale[row["unit"]] for row in csv.DictReader(file)}
+        return {
+            row["name"]: float(row["value"]) * scale[row["unit"]] for row in csv.DictReader(file)
+        }
 
 
 class PlanarCar:
-    """Car body and two bogies in the vertical plane: z, pitch each (pitch positive nose down), four axles."""
+    """Car body and two bogies in the vertical plane: z, pitch each (pitch positive nose down), four
+    axles."""
 
     def __init__(self):
         p = car_parameters()
@@ -31,10 +36,23 @@ class PlanarCar:
         self.offsets = np.array([half + axle, half - axle, -half + axle, -half - axle])
         self.k, self.c = 2 * p["primary_vertical_stiffness"], 2 * p["primary_vertical_damping"]
         ks, cs = 2 * p["secondary_vertical_stiffness"], 2 * p["secondary_vertical_damping"]
-        self.mass = np.diag([p["car_body_mass"], p["car_body_pitch_inertia"], *(p["bogie_mass"], p["bogie_pitch_inertia"]) * 2])
+        self.mass = np.diag(
+            [
+                p["car_body_mass"],
+                p["car_body_pitch_inertia"],
+                *(p["bogie_mass"], p["bogie_pitch_inertia"]) * 2,
+            ]
+        )
         # A point x ahead of a body's centre rises by z - x * pitch.
         secondary = np.array([[1, -half, -1, 0, 0, 0], [1, half, 0, 0, -1, 0]], dtype=float)
-        self.axle_rows = np.array([[0, 0, 1, -axle, 0, 0], [0, 0, 1, axle, 0, 0], [0, 0, 0, 0, 1, -axle], [0, 0, 0, 0, 1, axle]])
+        self.axle_rows = np.array(
+            [
+                [0, 0, 1, -axle, 0, 0],
+                [0, 0, 1, axle, 0, 0],
+                [0, 0, 0, 0, 1, -axle],
+                [0, 0, 0, 0, 1, axle],
+            ]
+        )
         self.stiffness = ks * secondary.T @ secondary + self.k * self.axle_rows.T @ self.axle_rows
         self.damping = cs * secondary.T @ secondary + self.c * self.axle_rows.T @ self.axle_rows
         self.static = (p["car_body_mass"] + 2 * p["bogie_mass"]) * G / 4
@@ -64,7 +82,8 @@ class SimpleBeam:
 
 
 def one_planar_car(speed, modes, times, amplitude=0.0, wavelength=1.0, climb=True):
-    """Mid-span displacement (m) and axle forces on the deck (N, static included) of one planar car, coupled.
+    """Mid-span displacement (m) and axle forces on the deck (N, static included) of one planar car,
+    coupled.
 
     The track is level before the deck and r = A sin(2 pi x / lambda) from its entrance on. Without
     `climb` the convective term, speed times the deck's slope, is left out.
@@ -75,14 +94,22 @@ def one_planar_car(speed, modes, times, amplitude=0.0, wavelength=1.0, climb=Tru
     inverse = np.linalg.inv(car.mass)
 
     def forces(t, state, between):
-        x, v, q, qd = state[:n], state[n : 2 * n], state[2 * n : 2 * n + modes], state[2 * n + modes :]
+        x, v, q, qd = (
+            state[:n],
+            state[n : 2 * n],
+            state[2 * n : 2 * n + modes],
+            state[2 * n + modes :],
+        )
         result = np.empty(4)
         for i in range(4):
             place = speed * t - delay[i]
             r = rate = 0.0
             if speed * between - delay[i] >= 0.0:
                 wave = 2 * np.pi / wavelength
-                r, rate = amplitude * np.sin(wave * place), speed * amplitude * wave * np.cos(wave * place)
+                r, rate = (
+                    amplitude * np.sin(wave * place),
+                    speed * amplitude * wave * np.cos(wave * place),
+                )
             if 0.0 <= speed * between - delay[i] <= beam.length:
                 shape, slope = beam.shape(min(max(place, 0.0), beam.length))
                 r += shape @ q
@@ -91,7 +118,12 @@ def one_planar_car(speed, modes, times, amplitude=0.0, wavelength=1.0, climb=Tru
         return result
 
     def derivative(t, state, between):
-        x, v, q, qd = state[:n], state[n : 2 * n], state[2 * n : 2 * n + modes], state[2 * n + modes :]
+        x, v, q, qd = (
+            state[:n],
+            state[n : 2 * n],
+            state[2 * n : 2 * n + modes],
+            state[2 * n + modes :],
+        )
         contact = forces(t, state, between)
         # What the axle springs lack in `stiffness @ x` is the motion of their lower ends.
         lower = car.k * (car.axle_rows @ x) + car.c * (car.axle_rows @ v) - contact
@@ -99,10 +131,14 @@ def one_planar_car(speed, modes, times, amplitude=0.0, wavelength=1.0, climb=Tru
         qdd = -beam.damping * qd - beam.omega**2 * q
         for i in range(4):
             if 0.0 <= speed * between - delay[i] <= beam.length:
-                qdd = qdd + beam.shape(min(max(speed * t - delay[i], 0.0), beam.length))[0] * (contact[i] - car.static)
+                qdd = qdd + beam.shape(min(max(speed * t - delay[i], 0.0), beam.length))[0] * (
+                    contact[i] - car.static
+                )
         return np.concatenate([v, a, qd, qdd])
 
-    events = sorted({0.0, times[-1], *(d / speed for d in delay), *((d + beam.length) / speed for d in delay)})
+    events = sorted(
+        {0.0, times[-1], *(d / speed for d in delay), *((d + beam.length) / speed for d in delay)}
+    )
     events = [e for e in events if e <= times[-1]]
     state = np.zeros(2 * n + 2 * modes)
     middle = np.zeros(len(times))
@@ -112,7 +148,14 @@ def one_planar_car(speed, modes, times, amplitude=0.0, wavelength=1.0, climb=Tru
         between = (start + stop) / 2
         wanted = np.append(np.minimum(times[inside], stop), stop)
         found = solve_ivp(
-            derivative, (start, stop), state, "DOP853", t_eval=np.unique(wanted), args=(between,), rtol=1e-10, atol=1e-13
+            derivative,
+            (start, stop),
+            state,
+            "DOP853",
+            t_eval=np.unique(wanted),
+            args=(between,),
+            rtol=1e-10,
+            atol=1e-13,
         )
         state = found.y[:, -1]
         for k, t in zip(np.flatnonzero(inside), times[inside], strict=True):

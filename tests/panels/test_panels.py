@@ -1,4 +1,4 @@
-"""Panels without a browser: `.set` takes the slider's path, so what is tested here is what a hand does."""
+"""Panels without a browser: `.set` takes the slider's path, so this tests what a hand does."""
 
 import asyncio
 import io
@@ -29,7 +29,9 @@ def panel(request, all_panels):
 
 
 def png(panel):
-    return b64decode(bytes(panel.image.value).removeprefix(b"data:image/png;base64,"), validate=True)
+    return b64decode(
+        bytes(panel.image.value).removeprefix(b"data:image/png;base64,"), validate=True
+    )
 
 
 def picture(panel):
@@ -74,12 +76,17 @@ def limits(panel):
 def test_a_case_has_its_own_limits_whatever_was_shown_before(panel):
     panel.set(speed=21.0)
     shown = limits(panel)
-    panel.set(speed=60.0, wavelength=4.0).set(speed=5.0, wavelength=30.0).set(**panel.start).set(speed=21.0)
+    panel.set(speed=60.0, wavelength=4.0).set(speed=5.0, wavelength=30.0).set(**panel.start).set(
+        speed=21.0
+    )
     assert limits(panel) == shown
 
 
 def move_with_a_kernel(panel, moves, seconds=5.0):
-    """Move sliders as messages of a kernel do, inside an event loop; return what is said at once, and what at rest."""
+    """Move sliders as messages of a kernel do, inside an event loop.
+
+    Return what is said at once, and what at rest.
+    """
 
     async def work():
         for name, value in moves:
@@ -93,11 +100,11 @@ def move_with_a_kernel(panel, moves, seconds=5.0):
 
 
 @pytest.mark.parametrize("name", ["rigid_forces", "deck_response", "fixed_point", "overview"])
-def test_a_moving_panel_answers_with_coarser_steps_and_exactly_at_rest(all_panels, name):
+def test_a_moving_panel_answers_with_coarser_steps_and_exactly_in_the_end(all_panels, name):
     panel = all_panels[name]
-    at_once, at_rest = move_with_a_kernel(panel, [("speed", 23.0), ("speed", 24.0)])
+    at_once, in_the_end = move_with_a_kernel(panel, [("speed", 23.0), ("speed", 24.0)])
     assert "Moving: time step up to 8 ms; 1 ms follows." in at_once and "role=status" not in at_once
-    assert "24.0 m/s" in at_once and "24.0 m/s" in at_rest and "Time step 1 ms." in at_rest
+    assert "24.0 m/s" in at_once and "24.0 m/s" in in_the_end and "Time step 1 ms." in in_the_end
     shown, said = limits(panel), panel.words.value
     panel.reset().set(speed=24.0)
     assert panel.words.value == said
@@ -109,11 +116,15 @@ def counting_panel(computed):
     """A panel of one slider that notes what is computed: (speed, coarse, thread)."""
 
     def compute(case, progress):
-        computed.append((case.settings.speed, case.settings.time_step > 2e-3, threading.get_ident()))
+        computed.append(
+            (case.settings.speed, case.settings.time_step > 2e-3, threading.get_ident())
+        )
 
     control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
     case = rb.case("paper").replace({"run.time_step": None})
-    return panels.Panel(case, [control], [["a"]], lambda *_: None, lambda *_: "", compute=compute, rough=True)
+    return panels.Panel(
+        case, [control], [["a"]], lambda *_: None, lambda *_: "", compute=compute, rough=True
+    )
 
 
 async def until(condition, seconds=20.0):
@@ -166,7 +177,9 @@ def test_a_refusal_after_a_coarse_picture_promises_nothing():
             raise RuntimeError("too fast")
 
     case = rb.case("paper").replace({"run.time_step": None})
-    panel = panels.Panel(case, [control], [["a"]], lambda *_: None, lambda *_: "said", compute=compute, rough=True)
+    panel = panels.Panel(
+        case, [control], [["a"]], lambda *_: None, lambda *_: "said", compute=compute, rough=True
+    )
 
     async def work():
         panel.sliders["speed"].value = 25.0
@@ -188,7 +201,9 @@ def test_an_error_of_the_exact_crossing_is_said_when_the_panel_rests():
 
     control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
     case = rb.case("paper").replace({"run.time_step": None})
-    panel = panels.Panel(case, [control], [["a"]], lambda *_: None, lambda *_: "", compute=compute, rough=True)
+    panel = panels.Panel(
+        case, [control], [["a"]], lambda *_: None, lambda *_: "", compute=compute, rough=True
+    )
 
     async def work():
         panel.sliders["speed"].value = 25.0
@@ -208,14 +223,21 @@ def test_coarser_steps_are_close_to_the_exact_ones(all_panels, speed, loads):
     rough, exact = rough[4], exact[4]
     assert rough.settings.time_step > 4 * exact.settings.time_step
     assert rough.iterations == exact.iterations
-    w, coarse = exact.displacement(18.0)["displacement_z"], rough.displacement(18.0)["displacement_z"]
+    w, coarse = (
+        exact.displacement(18.0)["displacement_z"],
+        rough.displacement(18.0)["displacement_z"],
+    )
     both = rough.time <= exact.time[-1]
-    assert np.abs(np.interp(rough.time, exact.time, w) - coarse)[both].max() < 0.012 * np.abs(w).max()
+    assert (
+        np.abs(np.interp(rough.time, exact.time, w) - coarse)[both].max() < 0.012 * np.abs(w).max()
+    )
     assert coarse.min() == pytest.approx(w.min(), rel=2e-3)
 
 
 def test_a_coarser_step_that_the_case_does_not_allow_is_not_taken():
-    short = rb.case("paper").replace({"run.time_step": None, "run.lead_in": 1.0, "train.cars": 1, "run.interaction": "rigid"})
+    short = rb.case("paper").replace(
+        {"run.time_step": None, "run.lead_in": 1.0, "train.cars": 1, "run.interaction": "rigid"}
+    )
     assert panels.panel._coarser(short) is short
 
 
@@ -262,7 +284,9 @@ def test_an_error_is_said_in_words_and_the_next_value_recovers(all_panels):
     panel.sliders["second_frequency"].value = 7.0
     panel.sliders["first_frequency"].value = 7.0
     assert isinstance(panel.error, rb.InputError)
-    assert "Not possible" in panel.trouble.value and "two different frequencies" in panel.trouble.value
+    assert (
+        "Not possible" in panel.trouble.value and "two different frequencies" in panel.trouble.value
+    )
     with pytest.raises(rb.InputError, match="two different frequencies"):
         panel.set(mode=2)
     panel.reset()
@@ -275,8 +299,16 @@ def test_an_error_is_said_in_words_and_the_next_value_recovers(all_panels):
     ("name", "values", "read"),
     [
         ("deck_response", {"speed": 22.0}, lambda v: f"{1e3 * v[0]:.2f} mm"),
-        ("fixed_point", {"wavelength": 12.0, "iteration": 2, "loads": "wheels"}, lambda v: f"{1e3 * v[0]:.2f} mm at iteration 2"),
-        ("overview", {"speed": 30.0, "iteration": 0}, lambda v: f"{1e3 * v[0]:.2f} mm at iteration 0"),
+        (
+            "fixed_point",
+            {"wavelength": 12.0, "iteration": 2, "loads": "wheels"},
+            lambda v: f"{1e3 * v[0]:.2f} mm at iteration 2",
+        ),
+        (
+            "overview",
+            {"speed": 30.0, "iteration": 0},
+            lambda v: f"{1e3 * v[0]:.2f} mm at iteration 0",
+        ),
         ("rigid_forces", {}, lambda v: f"steady bounce {v / 1e3:.1f} kN"),
         ("irregularities", {"speed": 30.0}, lambda v: f"forcing frequency {v:.3f} Hz"),
         ("deck_modes", {"mode": 3}, lambda v: f"{v[0]:.3f} Hz, damping {100 * v[1]:.2f} %"),
@@ -293,7 +325,10 @@ def test_the_code_runs_and_gives_the_number_of_the_summary(all_panels, name, val
     exec("\n".join(lines), scope)
     number = eval(last, scope)
     if name == "rigid_forces":
-        assert f"{number / 1e3:.0f}" == panel.summary.split("steady bounce ")[1].split(".")[0] or abs(number - 75.8e3) < 2e3
+        assert (
+            f"{number / 1e3:.0f}" == panel.summary.split("steady bounce ")[1].split(".")[0]
+            or abs(number - 75.8e3) < 2e3
+        )
     else:
         assert read(number) in panel.summary
     panel.code_button.click()
@@ -304,7 +339,10 @@ def test_the_code_runs_and_gives_the_number_of_the_summary(all_panels, name, val
 def test_the_paper_case_gives_the_known_numbers(all_panels):
     assert "steady bounce 75.8 kN, pitch 66.1 kN m" in all_panels["rigid_forces"].summary
     assert "worst wheel unloading 0.149" in all_panels["rigid_forces"].summary
-    assert "forcing frequency 1.389 Hz, nearest vehicle frequency 1.334 Hz (car bounce)" in all_panels["irregularities"].summary
+    assert (
+        "forcing frequency 1.389 Hz, nearest vehicle frequency 1.334 Hz (car bounce)"
+        in all_panels["irregularities"].summary
+    )
     assert "3.307 Hz, damping 3.00 %" in all_panels["deck_modes"].summary
     assert "damping would be 6.15 %" in all_panels["deck_modes"].summary
 
@@ -317,7 +355,9 @@ def test_a_value_seen_before_is_not_computed_again():
 
     control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
     view = panels.Control("iteration", "iteration", (), 0, 4, 1, start=0)
-    panel = panels.Panel(rb.case("paper"), [control, view], [["a"]], lambda *_: None, lambda *_: "", compute=compute)
+    panel = panels.Panel(
+        rb.case("paper"), [control, view], [["a"]], lambda *_: None, lambda *_: "", compute=compute
+    )
     panel.set(speed=21.0).set(iteration=3).set(speed=20.0).set(speed=21.0)
     assert runs == [20.0, 21.0]
 

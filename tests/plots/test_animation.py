@@ -1,4 +1,4 @@
-"""Moving pictures show what was computed, say how much they exaggerate, and play by hand and by keyboard."""
+"""Moving pictures show what was computed, say how much they exaggerate, and play by keyboard."""
 
 import json
 import re
@@ -28,7 +28,9 @@ def words(animation):
 
 
 def picture(animation):
-    return ElementTree.fromstring(b64decode(re.search(r"base64,([^\"]+)\"", animation.html).group(1)).decode("ascii"))
+    return ElementTree.fromstring(
+        b64decode(re.search(r"base64,([^\"]+)\"", animation.html).group(1)).decode("ascii")
+    )
 
 
 def texts(animation):
@@ -42,7 +44,13 @@ def car():
 
 @pytest.fixture(scope="module")
 def run():
-    return rb.case("paper").replace({"run.time_step": 4e-3, "run.iterations": 1, "train.cars": 2, "run.loads": "wheels"}).run()
+    return (
+        rb.case("paper")
+        .replace(
+            {"run.time_step": 4e-3, "run.iterations": 1, "train.cars": 2, "run.loads": "wheels"}
+        )
+        .run()
+    )
 
 
 @pytest.fixture(scope="module")
@@ -52,13 +60,20 @@ def crossing(run):
 
 @pytest.fixture(scope="module")
 def animations(car, crossing):
-    return [animate_vehicle_mode(car, 1), animate_vehicle_mode(rb.vehicle("sprung_mass"), 1), crossing]
+    return [
+        animate_vehicle_mode(car, 1),
+        animate_vehicle_mode(rb.vehicle("sprung_mass"), 1),
+        crossing,
+    ]
 
 
 def test_the_plain_text_says_what_it_is(car, crossing):
-    """This is what nbval compares: it must not hang on which of two equal bogies a program happens to name."""
+    """nbval compares it: it must not depend on which of two equal bogies a program names."""
     assert repr(animate_vehicle_mode(car, 4)) == "Animation: mode 4, bounce, 1.334 Hz, 24 frames"
-    assert repr(animate_vehicle_mode(car, 8, frames=12)) == "Animation: mode 8, pitch, 11.72 Hz, 12 frames"
+    assert (
+        repr(animate_vehicle_mode(car, 8, frames=12))
+        == "Animation: mode 8, pitch, 11.72 Hz, 12 frames"
+    )
     assert repr(crossing).startswith("Animation: 2 cars over viaduct36 at 20 m/s, displacement ")
 
 
@@ -70,7 +85,9 @@ def test_a_notebook_gets_text_and_html(crossing):
 def test_files_are_small_and_ask_for_nothing(animations):
     for animation in animations:
         assert len(animation.html) < FILE_BYTES
-        asked = re.findall(r"(?:src|href)=\"(?!data:)|url\(|@import|https?://|fetch\(|require\(", animation.html)
+        asked = re.findall(
+            r"(?:src|href)=\"(?!data:)|url\(|@import|https?://|fetch\(|require\(", animation.html
+        )
         assert asked == []
 
 
@@ -83,7 +100,10 @@ def test_the_same_input_gives_the_same_page(car):
 
 
 def test_a_mode_moves_bodies_as_its_shape_says():
-    """The sprung mass has one freedom, up: every corner rises by what the picture says it is drawn as, and no wheel moves."""
+    """The sprung mass has one freedom, up.
+
+    Every corner rises by what the picture says it is drawn as, and no wheel moves.
+    """
     animation = animate_vehicle_mode(rb.vehicle("sprung_mass"), 1)
     d, scale = data(animation), 60.0  # px per m, the largest used
     side, *_ = (np.reshape(m, (-1, 2)) for m in d["move"] if len(m) == 8)
@@ -94,9 +114,16 @@ def test_a_mode_moves_bodies_as_its_shape_says():
 
 
 def test_lower_sway_turns_the_body_about_an_axis_below_it(car):
-    """Looking forward, left is left, and a lean to the left lowers the left side and moves its top furthest."""
+    """Looking forward, left is left.
+
+    A lean to the left lowers the left side and moves its top furthest.
+    """
     d = data(animate_vehicle_mode(car, 1))
-    corners = [(np.reshape(r, (-1, 2)), np.reshape(m, (-1, 2))) for r, m in zip(d["rest"], d["move"], strict=True) if len(r) == 8]
+    corners = [
+        (np.reshape(r, (-1, 2)), np.reshape(m, (-1, 2)))
+        for r, m in zip(d["rest"], d["move"], strict=True)
+        if len(r) == 8
+    ]
     # Nine polygons: side, top and front, each with the car body last.
     rest, move = corners[8]
     left, top = rest[:, 0] < rest[:, 0].mean(), rest[:, 1] < rest[:, 1].mean()
@@ -114,7 +141,9 @@ def test_equal_pairs_are_said(car):
 
 def test_the_deck_is_where_the_run_says_times_the_stated_factor(run, crossing):
     d = data(crossing)
-    factor = float(re.search(r"drawn ([\d.e+]+) times too large", " ".join(texts(crossing))).group(1))
+    factor = float(
+        re.search(r"drawn ([\d.e+]+) times too large", " ".join(texts(crossing))).group(1)
+    )
     assert f"drawn {factor:g} times too large" in words(crossing)
     middle = run.displacement(18.0)["displacement_z"]
     expected = -factor * d["span"] / 36.0 * np.interp(d["time"], run.time, middle)
@@ -127,13 +156,20 @@ def test_the_train_is_where_its_speed_brings_it(run, crossing):
     d = data(crossing)
     metre = d["span"] / 36.0
     assert np.allclose(d["head"], d["left"] + metre * 20.0 * np.array(d["time"]), atol=0.1)
-    assert np.allclose(np.array(d["delay"]) / metre, [0.0, 2.5, 15.6, 18.1, 22.5, 25.0, 38.1, 40.6], atol=0.01)
+    assert np.allclose(
+        np.array(d["delay"]) / metre, [0.0, 2.5, 15.6, 18.1, 22.5, 25.0, 38.1, 40.6], atol=0.01
+    )
     assert d["time"][0] == 0.0 and np.isclose(d["time"][-1], (36.0 + 40.6) / 20.0 + 1.0, atol=5e-3)
 
 
 def test_bars_are_axle_forces_while_the_axle_is_on_the_deck():
-    """Bare axles are constant forces, so all bars are as long as the legend's, and stand from x = 0 to L."""
-    run = rb.cross(rb.AxleTrain([0.0, 5.0], [2e5, 2e5]), rb.deck("viaduct36"), speed=20.0, time_step=4e-3)
+    """Bare axles are constant forces.
+
+    All bars are as long as the legend's, and stand from x = 0 to L.
+    """
+    run = rb.cross(
+        rb.AxleTrain([0.0, 5.0], [2e5, 2e5]), rb.deck("viaduct36"), speed=20.0, time_step=4e-3
+    )
     shown = animate_crossing(run, frames=200)
     d = data(shown)
     for delay, (first, bar) in zip((0.0, 5.0), d["force"], strict=True):
@@ -145,17 +181,27 @@ def test_bars_are_axle_forces_while_the_axle_is_on_the_deck():
 
 
 def test_the_still_picture_is_the_frame_of_the_deepest_sag(browser, tmp_path, crossing):
-    """Where no script runs it is all there is; the player starts from it and must not move a thing."""
+    """Where no script runs it is all there is; the player starts from it and moves nothing."""
     page, _ = opened(browser, tmp_path, crossing)
-    names = {"data-deck": ("points",), "data-train": ("transform",), "data-dot": ("cx", "cy"), "data-wheel": ("cx", "cy"),
-             "data-bar": ("x1", "y1", "x2", "y2")}  # fmt: skip
+    names = {
+        "data-deck": ("points",),
+        "data-train": ("transform",),
+        "data-dot": ("cx", "cy"),
+        "data-wheel": ("cx", "cy"),
+        "data-bar": ("x1", "y1", "x2", "y2"),
+    }
     for name, keys in names.items():
-        still = [[e.get(k) for k in keys] for e in picture(crossing).iter() if e.get(name) is not None]
+        still = [
+            [e.get(k) for k in keys] for e in picture(crossing).iter() if e.get(name) is not None
+        ]
         played = page.eval_on_selector_all(
             f"[{name}]", "(all, keys) => all.map(e => keys.map(k => e.getAttribute(k)))", list(keys)
         )
         for a, b in zip(still, played, strict=True):
-            assert np.allclose(*([float(v) for v in re.findall(r"-?[\d.]+", " ".join(s))] for s in (a, b)), atol=0.11), name
+            assert np.allclose(
+                *([float(v) for v in re.findall(r"-?[\d.]+", " ".join(s))] for s in (a, b)),
+                atol=0.11,
+            ), name
     d = data(crossing)
     assert d["start"] == np.argmin(d["value"])
     page.close()
@@ -189,10 +235,14 @@ def test_what_cannot_be_shown_is_refused(car, run, call, message):
 
 def test_names_of_users_do_not_become_markup(tmp_path):
     deck = rb.Beam("</script><b>&", (20.0,), 9e3, 2e10).deck(modes=2)
-    shown = animate_crossing(rb.cross(rb.AxleTrain([0.0], [1e5]), deck, speed=20.0, time_step=4e-3), frames=20)
+    shown = animate_crossing(
+        rb.cross(rb.AxleTrain([0.0], [1e5]), deck, speed=20.0, time_step=4e-3), frames=20
+    )
     assert shown.html.count("</script>") == 1 and "<b>" not in shown.html
     shown.save(tmp_path / "page.html")
-    assert "<title>1 axle over &lt;/script&gt;&lt;b&gt;&amp; at" in (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "<title>1 axle over &lt;/script&gt;&lt;b&gt;&amp; at" in (
+        tmp_path / "page.html"
+    ).read_text(encoding="utf-8")
 
 
 # ---- in a browser
@@ -200,23 +250,34 @@ def test_names_of_users_do_not_become_markup(tmp_path):
 
 @pytest.fixture(scope="module")
 def browser():
-    program = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    program = next(
+        filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+    )
     if program is None:
         pytest.skip("no Chromium is installed")
     sync_api = pytest.importorskip("playwright.sync_api")
     with sync_api.sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=program, args=["--no-sandbox", "--disable-gpu"])
+        started = playwright.chromium.launch(
+            executable_path=program, args=["--no-sandbox", "--disable-gpu"]
+        )
         yield started
         started.close()
 
 
 def opened(browser, folder, *animations, **options):
     """A page with these animations, and the list of what went wrong on it."""
-    (folder / "page.html").write_text("<!doctype html><title>t</title>" + "".join(a.html for a in animations), encoding="utf-8")
+    (folder / "page.html").write_text(
+        "<!doctype html><title>t</title>" + "".join(a.html for a in animations), encoding="utf-8"
+    )
     page = browser.new_page(**options)
     wrong = []
     page.on("pageerror", lambda error: wrong.append(str(error)))
-    page.on("request", lambda request: wrong.append(request.url) if not request.url.startswith(("file:", "data:")) else None)
+
+    def asked(request):
+        if not request.url.startswith(("file:", "data:")):
+            wrong.append(request.url)
+
+    page.on("request", asked)
     page.goto((folder / "page.html").as_uri())
     return page, wrong
 
@@ -224,9 +285,16 @@ def opened(browser, folder, *animations, **options):
 def test_it_waits_then_plays_and_pauses_by_keyboard(browser, tmp_path, crossing):
     page, wrong = opened(browser, tmp_path, crossing)
     button, slider = page.get_by_role("button"), page.get_by_role("slider")
-    assert button.get_attribute("aria-label") == "Play animation" and slider.get_attribute("aria-label") == "Time of the crossing"
-    # JupyterLab asks the focused element itself whether its own shortcuts, such as the arrow keys, should rest.
-    assert button.get_attribute("data-lm-suppress-shortcuts") == slider.get_attribute("data-lm-suppress-shortcuts") == "true"
+    assert (
+        button.get_attribute("aria-label") == "Play animation"
+        and slider.get_attribute("aria-label") == "Time of the crossing"
+    )
+    # JupyterLab asks the focused element itself whether to leave it keys such as the arrows.
+    assert (
+        button.get_attribute("data-lm-suppress-shortcuts")
+        == slider.get_attribute("data-lm-suppress-shortcuts")
+        == "true"
+    )
     start = slider.input_value()
     page.wait_for_timeout(250)
     assert slider.input_value() == start, "paused at first"
@@ -234,7 +302,9 @@ def test_it_waits_then_plays_and_pauses_by_keyboard(browser, tmp_path, crossing)
     before = deck.get_attribute("points")
     slider.focus()
     page.keyboard.press("Home")
-    assert deck.get_attribute("points") != before and slider.get_attribute("aria-valuetext").startswith("t = 0.00 s")
+    assert deck.get_attribute("points") != before and slider.get_attribute(
+        "aria-valuetext"
+    ).startswith("t = 0.00 s")
     page.keyboard.press("ArrowRight")
     assert slider.input_value() == "1"
     page.keyboard.press("Shift+Tab")
@@ -258,10 +328,13 @@ def test_a_crossing_ends_and_a_mode_goes_round(browser, tmp_path, car, run):
     crossing_.get_by_role("slider").focus()
     page.keyboard.press("End")
     page.keyboard.press("ArrowLeft")
-    for one in (crossing_, mode):
-        one.get_by_role("button").click()
+    for animation in (crossing_, mode):
+        animation.get_by_role("button").click()
     page.wait_for_timeout(2900)
-    assert crossing_.get_by_role("button").inner_text() == "Play" and crossing_.get_by_role("slider").input_value() == "9"
+    assert (
+        crossing_.get_by_role("button").inner_text() == "Play"
+        and crossing_.get_by_role("slider").input_value() == "9"
+    )
     assert mode.get_by_role("button").inner_text() == "Pause", "a mode goes on"
     assert wrong == []
     page.close()

@@ -1,4 +1,4 @@
-"""Every figure is drawn, says its units, changes no settings, and hides nothing under its legend."""
+"""Every figure is drawn, says its units, changes no settings; no legend hides anything."""
 
 import inspect
 
@@ -9,8 +9,8 @@ import pytest
 
 import railbridge as rb
 from railbridge import plots
-from railbridge.plots import drawing
-from railbridge.plots.style import second
+from railbridge.plots.drawing import FIGURE_WIDTH, reuse_artists
+from railbridge.plots.style import QUANTITY_STYLES, RUN_COLOURS, other_shade
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,9 @@ def figures(case, run):
     """One call of every figure, by name."""
     car, deck, train, track = run.train.vehicles[0], run.deck, run.train, run.track
     notch = rb.Notch(((1, 1),), 2.7, 1.0, 1e-3, 0.05)
-    box = rb.Box("box", (36.0,), 9.6, 0.25, 2.0, 0.35, 5.0, 0.2, 34e9, tracks={"left": 2.4, "right": -2.4})
+    box = rb.Box(
+        "box", (36.0,), 9.6, 0.25, 2.0, 0.35, 5.0, 0.2, 34e9, tracks={"left": 2.4, "right": -2.4}
+    )
     shell = box.shell(rb.BoxMesh(16, 2, 4, 2))
     shell_modes = shell.modes(6)
     return {
@@ -85,7 +87,7 @@ def test_every_figure_has_units_no_side_effects_and_a_legend_above_the_data(name
     assert all(isinstance(ax, mpl.axes.Axes) for ax in axes)
     labels = " ".join(ax.get_xlabel() + ax.get_ylabel() for ax in axes)
     assert any(f"({unit})" in labels for unit in ("m", "s", "Hz", "mm", "kN", "-", "%")), labels
-    assert figure.get_figwidth() == drawing.WIDTH
+    assert figure.get_figwidth() == FIGURE_WIDTH
     # A legend stands above the data.
     for ax in axes:
         if ax.get_legend() is not None:
@@ -101,7 +103,10 @@ def test_given_axes_are_used_and_returned(run):
     assert plt.get_fignums() == [figure.number]
 
 
-@pytest.mark.parametrize(("vehicle", "modes"), [("xia2000", (1, 9, 15)), ("xia2000_planar", (1, 3)), ("sprung_mass", (1,))])
+@pytest.mark.parametrize(
+    ("vehicle", "modes"),
+    [("xia2000", (1, 9, 15)), ("xia2000_planar", (1, 3)), ("sprung_mass", (1,))],
+)
 def test_any_vehicle_and_its_modes_can_be_sketched(vehicle, modes):
     v = rb.vehicle(vehicle)
     assert len(plots.vehicle(v)) == 3
@@ -113,8 +118,14 @@ def test_any_vehicle_and_its_modes_can_be_sketched(vehicle, modes):
 
 def test_mode_titles_say_frequency_and_what_moves():
     car = rb.vehicle("xia2000")
-    assert plots.vehicle_mode(car, 4)[0].get_title(loc="left").startswith("mode 4: 1.334 Hz, car z\nCar bounces (100 %)")
-    assert "Same frequency as mode 9" in plots.vehicle_mode(car, 8)[0].get_title(loc="left").replace("\n", " ")
+    assert (
+        plots.vehicle_mode(car, 4)[0]
+        .get_title(loc="left")
+        .startswith("mode 4: 1.334 Hz, car z\nCar bounces (100 %)")
+    )
+    assert "Same frequency as mode 9" in plots.vehicle_mode(car, 8)[0].get_title(
+        loc="left"
+    ).replace("\n", " ")
 
 
 def test_a_mode_moves_its_body_as_its_shape_says():
@@ -134,15 +145,55 @@ def test_displays_are_in_kn_and_mm(run):
     assert np.all(kn < 0)
 
 
+def test_steady_amplitudes_stand_around_the_weight_where_it_is_counted(run):
+    weight = sum(wheel.static_load for wheel in run.train.car(1).wheels)
+    for static, middle in ((False, 0.0), (True, -1e-3 * weight)):
+        options = {"static": static, "steady": {"force_z": 75e3}, "components": ("force_z",)}
+        (ax,) = plots.car_forces(run, **options)
+        (line,) = (line for line in ax.lines if line.get_gid() == "steady")
+        levels = line.get_ydata()[[0, 1, 3, 4]]
+        assert np.allclose(levels, middle + np.array([75.0, 75.0, -75.0, -75.0]))
+
+
+def test_a_deck_of_modes_alone_has_influence_lines_of_its_motion_only(run):
+    known = (
+        "name",
+        "length",
+        "shapes",
+        "frequencies_hz",
+        "damping_ratios",
+        "mode_names",
+        "supports",
+    )
+    deck = rb.Deck(**{name: getattr(run.deck, name) for name in known})
+    line, other = (
+        next(
+            line
+            for line in plots.influence_line(d, "displacement_z", 9.0).lines
+            if line.get_gid() == "line"
+        )
+        for d in (deck, run.deck)
+    )
+    assert np.allclose(
+        line.get_ydata(), other.get_ydata(), atol=2e-3 * np.abs(other.get_ydata()).max()
+    )
+    with pytest.raises(rb.InputError, match="only its modes are known"):
+        plots.influence_line(deck, "moment_vertical", 9.0)
+
+
 def test_spectra_titles_give_equation_3(run):
     titles = [ax.get_title(loc="left") for ax in plots.spectra(run)]
     assert titles[0] == "i = 0, rigid deck"
     assert titles[2] == f"i = 2, Eq. 3: {run.deviations.from_rigid[1]:+.3f} %"
 
 
-def test_looks_are_unique():
-    looks = [(v.colour, v.line) for k, v in drawing.LOOKS.items() if k not in ("slope_vertical", "slope_lateral", "damping")]
-    assert len(set(looks)) == len(looks)
+def test_no_two_quantities_look_alike():
+    lines = [
+        (v.colour, v.line)
+        for k, v in QUANTITY_STYLES.items()
+        if k not in ("slope_vertical", "slope_lateral", "damping")
+    ]
+    assert len(set(lines)) == len(lines)
 
 
 @pytest.mark.parametrize(
@@ -150,6 +201,16 @@ def test_looks_are_unique():
     [
         (lambda run: plots.vehicle_mode(run.train.vehicles[0], 16), "mode = 16"),
         (lambda run: plots.deck_mode(run.deck, 0), "mode = 0"),
+        (
+            lambda run: plots.deck_modes(run.deck, [99]),
+            r"modes = \[99\]: must name some of 1 to",
+        ),
+        (
+            lambda run: plots.spectra(run, [7, 8]),
+            r"iterations = \[7, 8\]: must name some of 0 to 4",
+        ),
+        (lambda run: plots.wheel_force(run, 1, 9), r"wheel = \(1, 9\)"),
+        (lambda run: plots.car_forces(run, 3), "car = 3"),
         (lambda run: plots.wheel_forces(run, 3), "car = 3"),
         (lambda run: plots.section_force(run, 18.0, "moment_verticle"), "moment_verticle"),
         (lambda run: plots.influence_line(run.deck, "moment_vertcal", 18.0), "moment_vertical"),
@@ -163,9 +224,9 @@ def test_wrong_questions_are_refused(run, call, message):
         call(run)
 
 
-def test_a_live_figure_moves_its_curves(run):
+def test_a_figure_that_reuses_its_artists_moves_its_curves(run):
     ax = plots.displacement(run, 18.0)
-    drawing.live(ax.figure)
+    reuse_artists(ax.figure)
     count = len(ax.get_children())
     before = ax.lines[0].get_ydata().copy()
     plots.displacement(run.at(0), 18.0, ax=ax)
@@ -176,16 +237,19 @@ def test_a_live_figure_moves_its_curves(run):
 def test_own_drawings_of_a_notebook_take_the_colours_of_the_suite():
     with mpl.style.context(plots.STYLE):
         ax = mpl.figure.Figure().add_subplot()
-        for i, colour in enumerate(drawing.COMPARED):
+        for i, colour in enumerate(RUN_COLOURS):
             assert ax.plot([0, 1], [0, i])[0].get_color() == colour
         assert not ax.spines["top"].get_visible()
 
 
-def test_second_shades_can_be_told_from_the_first():
-    for colour in {v.colour for v in drawing.LOOKS.values()}:
-        first, other = (np.array(mpl.colors.to_rgb(c)) for c in (colour, second(colour)))
+def test_other_shades_can_be_told_from_the_first():
+    for colour in {v.colour for v in QUANTITY_STYLES.values()}:
+        first, other = (np.array(mpl.colors.to_rgb(c)) for c in (colour, other_shade(colour)))
         assert np.abs(first - other).max() > 0.25, colour
-        assert np.array_equal(np.argsort(first)[[0, -1]], np.argsort(other)[[0, -1]]) or len(set(first)) == 1, colour
+        assert (
+            np.array_equal(np.argsort(first)[[0, -1]], np.argsort(other)[[0, -1]])
+            or len(set(first)) == 1
+        ), colour
 
 
 def test_public_functions_take_axes():

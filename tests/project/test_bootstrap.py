@@ -1,4 +1,5 @@
-"""The bootstrap's decisions, without installing anything: what is right, what is mended, what is started over."""
+"""The bootstrap's decisions, without installing anything: what is right, what is mended, what is
+started over."""
 
 import importlib.util
 import json
@@ -96,7 +97,9 @@ def fake_install(environment, bootstrap, monkeypatch, works):
             raise KeyboardInterrupt
 
     monkeypatch.setattr(bootstrap, "run", run)
-    monkeypatch.setattr(bootstrap.subprocess, "run", lambda *a, **k: subprocess.CompletedProcess(a, 0))
+    monkeypatch.setattr(
+        bootstrap.subprocess, "run", lambda *a, **k: subprocess.CompletedProcess(a, 0)
+    )
     monkeypatch.setattr(environment, "has_uv", lambda: False)
     monkeypatch.setattr(environment, "install_with_pip", install)
     return steps
@@ -127,7 +130,10 @@ def test_a_missing_module_is_named_in_one_line(tmp_path, missing):
     tools.mkdir()
     (tools / "bootstrap.py").write_text(SCRIPT.read_text(encoding="utf-8"), encoding="utf-8")
     done = subprocess.run(
-        [sys.executable, tools / "bootstrap.py"], env={"PYTHONPATH": str(tmp_path)}, capture_output=True, text=True
+        [sys.executable, tools / "bootstrap.py"],
+        env={"PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
     )
     assert done.returncode == 1
     assert done.stdout == ""
@@ -137,7 +143,9 @@ def test_a_missing_module_is_named_in_one_line(tmp_path, missing):
 
 
 def test_an_old_python_is_told_so_in_one_line(bootstrap):
-    with pytest.raises(SystemExit, match=r"^railbridge needs Python 3\.11 or newer; this is Python 3\.9\.$"):
+    with pytest.raises(
+        SystemExit, match=r"^railbridge needs Python 3\.11 or newer; this is Python 3\.9\.$"
+    ):
         bootstrap.require_python((3, 9, 2))
     bootstrap.require_python((3, 11, 0))
 
@@ -152,7 +160,11 @@ def test_pip_settings_become_uv_settings(bootstrap, monkeypatch):
         install.timeout='60'
         freeze.timeout='1'
         """
-    monkeypatch.setattr(bootstrap.subprocess, "run", lambda *a, **k: subprocess.CompletedProcess(a, 0, stdout=listing, stderr=""))
+    monkeypatch.setattr(
+        bootstrap.subprocess,
+        "run",
+        lambda *a, **k: subprocess.CompletedProcess(a, 0, stdout=listing, stderr=""),
+    )
     monkeypatch.setattr(bootstrap.os, "environ", {"SSL_CERT_FILE": "/mine.pem", "PATH": "/bin"})
     environment = bootstrap.uv_environment(bootstrap.pip_settings("python"))
     assert environment["UV_FIND_LINKS"] == "/wheels"

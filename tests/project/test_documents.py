@@ -28,13 +28,20 @@ def test_readme_gives_a_plain_command_for_every_target():
 @pytest.mark.parametrize("name", DOCUMENTS)
 def test_plain_commands_are_those_of_the_makefile(name):
     for target, command in rows_of_commands(name):
-        recipe = TARGETS[target].replace("$(BIN)/", "").replace("$(PYTHON)", "python").replace(" $(ARGS)", "")
+        recipe = (
+            TARGETS[target]
+            .replace("$(BIN)/", "")
+            .replace("$(PYTHON)", "python")
+            .replace(" $(ARGS)", "")
+        )
         assert command in recipe, target
 
 
 def links(name):
     text = (ROOT / name).read_text(encoding="utf-8")
-    return [target for target in re.findall(r"\]\(([^)#]+)\)", text) if not re.match(r"\w+:", target)]
+    return [
+        target for target in re.findall(r"\]\(([^)#]+)\)", text) if not re.match(r"\w+:", target)
+    ]
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)
@@ -54,14 +61,20 @@ def test_citation_can_be_read():
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert citation["authors"] == [{"name": "The railbridge contributors"}]
     assert citation["references"][0]["year"] == 2016
-    version = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(encoding="utf-8"), re.MULTILINE)
+    version = re.search(
+        r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(encoding="utf-8"), re.MULTILINE
+    )
     assert str(citation["version"]) == version.group(1)
 
 
 def map_rows():
     """[(question, call, figure, notebook, file)] of docs/map.md."""
     lines = (ROOT / "docs" / "map.md").read_text(encoding="utf-8").splitlines()
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
+    rows = [
+        [cell.strip() for cell in line.strip("|").split("|")]
+        for line in lines
+        if line.startswith("|")
+    ]
     return [tuple(row) for row in rows[2:]]
 
 
@@ -77,5 +90,7 @@ def test_the_map_names_what_there_is(row):
     assert any(f"**Figure {figure}.**" in cell.source for cell in page.cells), figure
     module = ROOT / "helpers" / "railbridge" / file.strip("`")
     last = call.strip("`").rpartition(".")[2]
-    declared = last == "Case" or re.search(rf"^\s*(def|class) {last}\b", module.read_text(encoding="utf-8"), re.M)
+    declared = last == "Case" or re.search(
+        rf"^\s*(def|class) {last}\b", module.read_text(encoding="utf-8"), re.M
+    )
     assert declared, f"{last} is not in {file}"

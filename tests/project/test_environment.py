@@ -1,4 +1,4 @@
-"""One set of asks: pyproject.toml, environment.yml, requirements.lock and what is installed agree."""
+"""One set of asks: pyproject.toml, environment.yml, requirements.lock and installation agree."""
 
 import importlib.metadata
 import json
@@ -34,7 +34,9 @@ def asks_of_pyproject():
 
 def asks_of_conda():
     """{package: version range}"""
-    asks = [text for text in CONDA["dependencies"] if isinstance(text, str)] + CONDA["dependencies"][-1]["pip"]
+    asks = [text for text in CONDA["dependencies"] if isinstance(text, str)] + CONDA[
+        "dependencies"
+    ][-1]["pip"]
     asked = [re.fullmatch(r"([\w.-]+)\s*(.*)", text).groups() for text in asks]
     return {canonicalize_name(name): SpecifierSet(versions) for name, versions in asked}
 
@@ -58,7 +60,11 @@ def test_every_ask_has_a_lower_bound():
 @pytest.mark.parametrize("name", ASKS)
 def test_lock_is_within_the_asked_range(name):
     locked = [Requirement(line) for line in LOCK]
-    versions = [next(iter(lock.specifier)).version for lock in locked if canonicalize_name(lock.name) == name]
+    versions = [
+        next(iter(lock.specifier)).version
+        for lock in locked
+        if canonicalize_name(lock.name) == name
+    ]
     assert versions, f"not locked; run `make lock` after a change of pyproject.toml: {name}"
     assert all(ASKS[name].contains(version) for version in versions)
 
@@ -68,7 +74,10 @@ def test_installed_version_is_within_the_asked_range(name):
     try:
         installed = importlib.metadata.version(name)
     except importlib.metadata.PackageNotFoundError:
-        if name in {canonicalize_name(Requirement(text).name) for text in PROJECT["optional-dependencies"]["dev"]}:
+        if name in {
+            canonicalize_name(Requirement(text).name)
+            for text in PROJECT["optional-dependencies"]["dev"]
+        }:
             pytest.skip("only needed to install and to lock")
         raise
     assert ASKS[name].contains(Version(installed))
@@ -97,14 +106,18 @@ def test_the_package_is_installed_in_place():
 
 def test_import_is_light():
     """Plots, tables and panels load what they need when they are used."""
-    code = "import sys, railbridge; print([m for m in ('matplotlib', 'pandas', 'ipywidgets') if m in sys.modules])"
+    code = (
+        "import sys, railbridge; print([m for m in ('matplotlib', 'pandas', 'ipywidgets') "
+        "if m in sys.modules])"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stdout.strip() == "[]", done.stdout + done.stderr
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    """A folder with the unpacked wheel: someone who installs it has no folders `data/` and `notebooks/` beside the package."""
+    """A folder with the unpacked wheel: someone who installs it has no folders `data/` and
+    `notebooks/` beside the package."""
     if subprocess.run([sys.executable, "-c", "import hatchling"], capture_output=True).returncode:
         pytest.skip("the build backend is not installed")
     folder = tmp_path_factory.mktemp("wheel")
@@ -118,24 +131,38 @@ def site(tmp_path_factory):
 def with_wheel(site, folder, *arguments):
     """What Python says, with the wheel in place of the checkout."""
     paths = {**os.environ, "PYTHONPATH": str(site)}
-    done = subprocess.run([sys.executable, *arguments], cwd=folder, env=paths, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, *arguments], cwd=folder, env=paths, capture_output=True, text=True
+    )
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 def test_a_built_wheel_carries_the_data(site, tmp_path):
-    carried = {path.relative_to(site / "railbridge") for path in (site / "railbridge" / "data").rglob("*.*")}
+    carried = {
+        path.relative_to(site / "railbridge")
+        for path in (site / "railbridge" / "data").rglob("*.*")
+    }
     assert carried == {path.relative_to(ROOT) for path in (ROOT / "data").rglob("*.*")}
-    code = "import railbridge as rb; print(rb.__file__); rb.vehicle('xia2000'); rb.deck('viaduct36')"
+    code = (
+        "import railbridge as rb; print(rb.__file__); rb.vehicle('xia2000'); rb.deck('viaduct36')"
+    )
     assert Path(with_wheel(site, tmp_path, "-c", code).strip()).is_relative_to(site.resolve())
 
 
 def test_a_built_wheel_hands_out_the_same_notebooks_as_the_checkout(site, tmp_path):
-    assert {path.name for path in site.iterdir()} == {"railbridge", next(site.glob("*.dist-info")).name}
+    assert {path.name for path in site.iterdir()} == {
+        "railbridge",
+        next(site.glob("*.dist-info")).name,
+    }
     carried = {path.name for path in (site / "railbridge" / "share" / "notebooks").iterdir()}
     assert carried == {path.name for path in (ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb")}
     said = with_wheel(site, tmp_path, "-m", "railbridge", "copy-notebooks", "mine")
-    handed = {p.relative_to(tmp_path / "mine").as_posix(): p.read_bytes() for p in (tmp_path / "mine").rglob("*") if p.is_file()}
+    handed = {
+        p.relative_to(tmp_path / "mine").as_posix(): p.read_bytes()
+        for p in (tmp_path / "mine").rglob("*")
+        if p.is_file()
+    }
     record = handed.pop(lessons.MANIFEST)
     assert handed == lessons.contents()
     assert set(json.loads(record)) == set(handed)

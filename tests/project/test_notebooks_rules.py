@@ -1,7 +1,9 @@
-"""The rules of the page, the same for every notebook. `notebooks/_template.ipynb` explains them and is checked too.
+"""The rules of the page, the same for every notebook. `notebooks/_template.ipynb` explains them and
+is checked too.
 
-`broken_rules` returns one line for each rule that a notebook breaks. The tests below apply it to every notebook in the
-folder, and to copies of the template that break one rule each, so that no rule can fall silent.
+`broken_rules` returns one line for each rule that a notebook breaks. The tests below apply it to
+every notebook in the folder, and to copies of the template that break one rule each, so that no
+rule can fall silent.
 """
 
 import copy
@@ -19,7 +21,12 @@ TEMPLATE = FOLDER / "_template.ipynb"
 TEMPLATE_NUMBER = "99"
 NUMBERED = sorted(FOLDER.glob("[0-9][0-9]_*.ipynb"))
 
-GOALS, SYMBOLS, THEORY, SOLVE = "What you will be able to do", "Sketch and symbols", "Theory", "Build, solve, look"
+GOALS, SYMBOLS, THEORY, SOLVE = (
+    "What you will be able to do",
+    "Sketch and symbols",
+    "Theory",
+    "Build, solve, look",
+)
 OPEN, CHECK, EXPLORE, EXERCISES = "Open the box", "Check", "Explore", "Exercises"
 FOUND, REFERENCES = "What we found", "References"
 
@@ -28,14 +35,26 @@ FOUND, REFERENCES = "What we found", "References"
 class Page:
     """What is asked of one notebook; a heading that is not listed may stand anywhere."""
 
-    sections: tuple = (GOALS, SYMBOLS, THEORY, SOLVE, OPEN, CHECK, EXPLORE, EXERCISES, FOUND, REFERENCES)
+    sections: tuple = (
+        GOALS,
+        SYMBOLS,
+        THEORY,
+        SOLVE,
+        OPEN,
+        CHECK,
+        EXPLORE,
+        EXERCISES,
+        FOUND,
+        REFERENCES,
+    )
     words: tuple = (500, 1500)
     code_lines: tuple = (40, 130)
     exercises: tuple = ("recall", "change", "extend")
     needs: tuple = ("You need", "Time", "Equations")
 
 
-# The pages that are no lessons of the usual kind: the door, the comparison, the long check, and the one with two programs.
+# The pages that are no lessons of the usual kind: the door, the comparison, the long check, and the
+# one with two programs.
 PAGES = {
     "00": Page((GOALS, EXPLORE, FOUND, REFERENCES), (200, 1200), (5, 80), (), ("You need", "Time")),
     # Two hierarchies of deck, and how the second was found.
@@ -47,7 +66,9 @@ PAGES = {
 }
 COURSE = ("00", "01", "02", "03", "04", "05", "06", "08")
 CELL_LINES = 15
-PRINTED_LETTERS = 100  # what a page of the site shows; JupyterLab wraps longer lines in a narrow window
+PRINTED_LETTERS = (
+    100  # what a page of the site shows; JupyterLab wraps longer lines in a narrow window
+)
 COLOURS = "plt.style.use(rb.plots.STYLE)"
 FIGURE_WORDS = 12
 FILE_BYTES = 400_000
@@ -55,7 +76,11 @@ FILE_BYTES = 400_000
 MARKED = "NBVAL_CHECK_OUTPUT"
 EXEMPT = re.compile(r"^# not compared: \S.*\S", re.MULTILINE)
 SYMBOL_HEADER = ["symbol", "in code", "meaning", "unit", "value", "source"]
-RAW_IN_JUPYTER = {r"\eqref": "write (3.1) as text", ":::{": "use <details> or an alert", "> [!": "use an alert <div>"}
+RAW_IN_JUPYTER = {
+    r"\eqref": "write (3.1) as text",
+    ":::{": "use <details> or an alert",
+    "> [!": "use an alert <div>",
+}
 FORBIDDEN_MARKERS = ("NBVAL_SKIP", "NBVAL_IGNORE_OUTPUT", "NBVAL_RAISES_EXCEPTION")
 MACHINE_PATH = re.compile(r"(?<![\w.])/(?:home|root|tmp|Users)/|\b[A-Z]:\\")
 WIDGET = "application/vnd.jupyter.widget-"
@@ -83,36 +108,59 @@ def is_text(cell):
 
 
 def marker(cell, name):
-    return any(line.strip().lstrip("#").strip() == name and "#" in line for line in cell.source.splitlines())
+    return any(
+        line.strip().lstrip("#").strip() == name and "#" in line
+        for line in cell.source.splitlines()
+    )
 
 
 def figures(cell):
-    return sum(mime.startswith("image/") for out in cell.get("outputs", []) for mime in out.get("data", {}))
+    return sum(
+        mime.startswith("image/") for out in cell.get("outputs", []) for mime in out.get("data", {})
+    )
 
 
 def is_panel(cell):
-    return any(out.get("data", {}).get("text/plain") == PANEL_TEXT for out in cell.get("outputs", []))
+    return any(
+        out.get("data", {}).get("text/plain") == PANEL_TEXT for out in cell.get("outputs", [])
+    )
 
 
 def prints(cell):
     """True if the stored cell shows text that is neither the shadow of a figure nor of a panel."""
     for out in cell.get("outputs", []):
         data = out.get("data", {})
-        shown = out.get("text") or ("text/html" in data) or ("text/latex" in data) or data.get("text/plain")
-        if shown and not any(mime.startswith("image/") for mime in data) and data.get("text/plain") != PANEL_TEXT:
+        shown = (
+            out.get("text")
+            or ("text/html" in data)
+            or ("text/latex" in data)
+            or data.get("text/plain")
+        )
+        if (
+            shown
+            and not any(mime.startswith("image/") for mime in data)
+            and data.get("text/plain") != PANEL_TEXT
+        ):
             return True
     return False
 
 
 def code_lines(cell):
-    """Lines that a reader has to read: not blank, no marker of ours, not the setting that stands on every page."""
+    """Lines that a reader has to read: not blank, no marker of ours, not the setting that stands on
+    every page."""
     lines = [line.strip() for line in cell.source.splitlines()]
-    return [line for line in lines if line and line.strip("# ") != MARKED and not EXEMPT.match(line) and COLOURS not in line]
+    return [
+        line
+        for line in lines
+        if line and line.strip("# ") != MARKED and not EXEMPT.match(line) and COLOURS not in line
+    ]
 
 
 def prose(cell):
     """The words of a text cell, without formulas, tables, links' targets, HTML tags and code."""
-    text = re.sub(r"```.*?```|\$\$.*?\$\$|\$[^$\n]*\$|<[^>]+>|\]\([^)]*\)", " ", cell.source, flags=re.DOTALL)
+    text = re.sub(
+        r"```.*?```|\$\$.*?\$\$|\$[^$\n]*\$|<[^>]+>|\]\([^)]*\)", " ", cell.source, flags=re.DOTALL
+    )
     text = re.sub(r"^\s*\|.*$", " ", text, flags=re.MULTILINE)
     return [word for word in text.split() if re.search(r"[^\W\d_]", word)]
 
@@ -172,14 +220,23 @@ def rules_of_the_sections(notebook, number, page):
     sections = section_of(notebook)
     if SYMBOLS in page.sections:
         text = joined(filter(is_text, sections.get(SYMBOLS, [])))
-        rows = [[entry.strip().lower() for entry in line.strip("| ").split("|")] for line in text.splitlines()]
+        rows = [
+            [entry.strip().lower() for entry in line.strip("| ").split("|")]
+            for line in text.splitlines()
+        ]
         if SYMBOL_HEADER not in rows:
             yield "a symbol table with the columns " + " | ".join(SYMBOL_HEADER)
-        if "![" not in text and "```" not in text and not any(map(figures, sections.get(SYMBOLS, []))):
+        if (
+            "![" not in text
+            and "```" not in text
+            and not any(map(figures, sections.get(SYMBOLS, [])))
+        ):
             yield f"a sketch (picture, figure or fenced drawing) in '{SYMBOLS}'"
     if THEORY in page.sections and rf"\tag{{{int(number)}." not in joined(sections.get(THEORY, [])):
         yield rf"numbered equations in '{THEORY}': \tag{{{int(number)}.1}}"
-    if OPEN in page.sections and not any("assert" in c.source for c in sections.get(OPEN, []) if is_code(c)):
+    if OPEN in page.sections and not any(
+        "assert" in c.source for c in sections.get(OPEN, []) if is_code(c)
+    ):
         yield f"'{OPEN}' asserts that the derivation equals the helper"
     if CHECK in page.sections and not any(marker(cell, MARKED) for cell in sections.get(CHECK, [])):
         yield f"'{CHECK}' compares numbers in a cell marked # {MARKED}"
@@ -187,7 +244,9 @@ def rules_of_the_sections(notebook, number, page):
         for i, cell in enumerate(cells):
             if is_panel(cell) and not any(map(figures, cells[:i])):
                 yield f"in '{heading}' a static figure stands before the panel"
-    yield from rules_of_the_exercises(joined(filter(is_text, sections.get(EXERCISES, []))), number, page)
+    yield from rules_of_the_exercises(
+        joined(filter(is_text, sections.get(EXERCISES, []))), number, page
+    )
     text = joined(notebook.cells)
     if text.count("<details>") != text.count("</details>"):
         yield "every <details> is closed"
@@ -206,7 +265,10 @@ def rules_of_the_exercises(text, number, page):
             yield f"exercise {i} is called '### Exercise {int(number)}.{i} (...)', not '{title}'"
         for fold in ("Hint", "Solution"):
             if not re.search(rf"<details>\s*<summary>{fold}[^<]*</summary>\n\n", part):
-                yield f"'{title}': <details><summary>{fold}</summary>, then an empty line, then the text"
+                yield (
+                    f"'{title}': <details><summary>{fold}</summary>, then an empty line, "
+                    "then the text"
+                )
 
 
 def rules_of_the_cells(notebook, number, page):
@@ -230,11 +292,19 @@ def rules_of_the_cells(notebook, number, page):
                 yield f"{name}: {word} hides what is printed; write '# not compared: reason'"
     if not page.code_lines[0] <= total <= page.code_lines[1]:
         yield f"{page.code_lines[0]} to {page.code_lines[1]} lines of code, not {total}"
-    importing = [cell for cell in notebook.cells if is_code(cell) and re.search(r"^(import|from) ", cell.source, re.M)]
+    importing = [
+        cell
+        for cell in notebook.cells
+        if is_code(cell) and re.search(r"^(import|from) ", cell.source, re.M)
+    ]
     if len(importing) > 1:
         yield "one cell imports, not " + str(len(importing))
-    if "plt.subplots(" in joined(filter(is_code, notebook.cells)) and not any(COLOURS in cell.source for cell in importing):
-        yield f"a page that draws by itself sets the colours of the suite where it imports: {COLOURS}"
+    if "plt.subplots(" in joined(filter(is_code, notebook.cells)) and not any(
+        COLOURS in cell.source for cell in importing
+    ):
+        yield (
+            f"a page that draws by itself sets the colours of the suite where it imports: {COLOURS}"
+        )
 
 
 def rules_of_the_figures(notebook, number, page):
@@ -263,9 +333,14 @@ def rules_of_the_outputs(notebook, number, page):
         marked, exempt = marker(cell, MARKED), bool(EXEMPT.search(cell.source))
         if prints(cell) and not marked and not exempt:
             yield f"{name} prints: mark it '# {MARKED}' or '# not compared: reason'"
-        for line in "".join(out.text for out in cell.outputs if out.get("name") == "stdout").splitlines():
+        for line in "".join(
+            out.text for out in cell.outputs if out.get("name") == "stdout"
+        ).splitlines():
             if len(line) > PRINTED_LETTERS:
-                yield f"{name} prints {len(line)} letters in a line, limit {PRINTED_LETTERS}: '{line[:30]}'"
+                yield (
+                    f"{name} prints {len(line)} letters in a line, limit {PRINTED_LETTERS}: "
+                    f"'{line[:30]}'"
+                )
         if (marked or exempt) and not prints(cell):
             yield f"{name} is marked but prints nothing"
         if marked and exempt:
@@ -277,18 +352,33 @@ def rules_of_the_outputs(notebook, number, page):
                 yield f"{name}: no stored warning"
             if any(mime.startswith(WIDGET) for mime in out.get("data", {})):
                 yield f"{name}: no stored widget view"
-            if MACHINE_PATH.search(str(out.get("text", "")) + str(out.get("data", {}).get("text/plain", ""))):
+            if MACHINE_PATH.search(
+                str(out.get("text", "")) + str(out.get("data", {}).get("text/plain", ""))
+            ):
                 yield f"{name}: no path of a machine"
 
 
 def rules_of_the_links(notebook, number, page, path):
-    text = re.sub(r"```.*?```|`[^`\n]*`", "", joined(filter(is_text, notebook.cells)), flags=re.DOTALL)
-    for target in [*re.findall(r"\]\(<?([^)>\s]+)>?[^)]*\)", text), *re.findall(r"(?:src|href)=\"([^\"]+)\"", text)]:
+    text = re.sub(
+        r"```.*?```|`[^`\n]*`", "", joined(filter(is_text, notebook.cells)), flags=re.DOTALL
+    )
+    for target in [
+        *re.findall(r"\]\(<?([^)>\s]+)>?[^)]*\)", text),
+        *re.findall(r"(?:src|href)=\"([^\"]+)\"", text),
+    ]:
         local = target.split("#")[0]
         if local and not re.match(r"\w+:", target) and not (path.parent / local).exists():
             yield f"link to {target}: no such file"
-    following = [other.name for other in sorted(path.parent.glob("[0-9][0-9]_*.ipynb")) if other.name[:2] > number]
-    if following and number != TEMPLATE_NUMBER and not re.search(rf"\*\*Next:\*\* \[[^]]+\]\({following[0]}\)", text):
+    following = [
+        other.name
+        for other in sorted(path.parent.glob("[0-9][0-9]_*.ipynb"))
+        if other.name[:2] > number
+    ]
+    if (
+        following
+        and number != TEMPLATE_NUMBER
+        and not re.search(rf"\*\*Next:\*\* \[[^]]+\]\({following[0]}\)", text)
+    ):
         yield f"'**Next:** [title]({following[0]})' leads on"
 
 
@@ -332,7 +422,12 @@ def test_numbers_are_used_once():
 
 def test_printed_cells_are_compared():
     """Counts, over all notebooks, what is printed against what is compared or openly left out."""
-    cells = [c for path in [*NUMBERED, TEMPLATE] for c in nbformat.read(path, as_version=4).cells if is_code(c)]
+    cells = [
+        c
+        for path in [*NUMBERED, TEMPLATE]
+        for c in nbformat.read(path, as_version=4).cells
+        if is_code(c)
+    ]
     printing = [cell for cell in cells if prints(cell)]
     compared = [cell for cell in printing if marker(cell, MARKED)]
     exempt = [cell for cell in printing if EXEMPT.search(cell.source)]
@@ -345,7 +440,9 @@ def test_printed_cells_are_compared():
 
 def replace(old, new, kind=None):
     def change(notebook):
-        cells = [c for c in notebook.cells if old in c.source and (kind is None or c.cell_type == kind)]
+        cells = [
+            c for c in notebook.cells if old in c.source and (kind is None or c.cell_type == kind)
+        ]
         assert cells, f"the template no longer contains {old!r}"
         cells[0].source = cells[0].source.replace(old, new)
 
@@ -398,17 +495,32 @@ BREAKING = {
     "another number": (replace("# 99 -", "# 98 -"), "the first line is the title"),
     "no verb": (replace("# 99 - ", "# 99 - The"), "the first line is the title"),
     "two titles": (replace(f"## {OPEN}", f"# {OPEN}"), "one first-level heading"),
-    "no question": (lambda nb: nb.cells[0].update(source=nb.cells[0].source.replace("?", ".")), "the question"),
+    "no question": (
+        lambda nb: nb.cells[0].update(source=nb.cells[0].source.replace("?", ".")),
+        "the question",
+    ),
     "no section": (replace(f"## {THEORY}", "## Thoughts"), f"section '## {THEORY}'"),
     "section order": (swap_sections, "sections stand in this order"),
     "no time": (replace("**Time:**", "Time:"), "'**Time:**'"),
     "raw reference": (replace(r"\tag{99.1}", r"\tag{99.1} \eqref{a}"), "JupyterLab shows"),
-    "too many words": (lambda nb: nb.cells[0].update(source=nb.cells[0].source + " word" * 1500), "words of text"),
+    "too many words": (
+        lambda nb: nb.cells[0].update(source=nb.cells[0].source + " word" * 1500),
+        "words of text",
+    ),
     "no symbol table": (replace("| symbol |", "| sign |"), "a symbol table"),
     "no sketch": (replace("```", ""), "a sketch"),
-    "no equation number": (lambda nb: [c.update(source=c.source.replace(r"\tag{", "(")) for c in nb.cells], "numbered"),
-    "box not asserted": (lambda nb: [c.update(source=c.source.replace("assert", "print")) for c in nb.cells], OPEN),
-    "nothing checked": (lambda nb: [c.update(source=c.source.replace(f"# {MARKED}\n", "")) for c in nb.cells], CHECK),
+    "no equation number": (
+        lambda nb: [c.update(source=c.source.replace(r"\tag{", "(")) for c in nb.cells],
+        "numbered",
+    ),
+    "box not asserted": (
+        lambda nb: [c.update(source=c.source.replace("assert", "print")) for c in nb.cells],
+        OPEN,
+    ),
+    "nothing checked": (
+        lambda nb: [c.update(source=c.source.replace(f"# {MARKED}\n", "")) for c in nb.cells],
+        CHECK,
+    ),
     "panel without figure": (panel_first, "a static figure stands before the panel"),
     "no exercise of a kind": (replace("(extend)", "(more)"), "(extend)"),
     "exercise number": (replace("Exercise 99.2", "Exercise 99.7"), "exercise 2 is called"),
@@ -417,21 +529,42 @@ BREAKING = {
     "open fold": (replace("</details>", ""), "every <details> is closed"),
     "no text before code": (drop_text_before_code, "a text cell stands before it"),
     "long cell": (lambda nb: first(nb, is_code).update(source="x = 1\n" * 16), "16 lines"),
-    "empty cell": (lambda nb: first(nb, is_code).update(source="# NBVAL_CHECK_OUTPUT\n"), "is empty"),
-    "hidden output": (lambda nb: first(nb, is_code).update(source="# NBVAL_SKIP\nx = 1"), "NBVAL_SKIP"),
+    "empty cell": (
+        lambda nb: first(nb, is_code).update(source="# NBVAL_CHECK_OUTPUT\n"),
+        "is empty",
+    ),
+    "hidden output": (
+        lambda nb: first(nb, is_code).update(source="# NBVAL_SKIP\nx = 1"),
+        "NBVAL_SKIP",
+    ),
     "too much code": (lambda nb: nb.cells.extend(copy.deepcopy(nb.cells) * 3), "lines of code"),
     "second import": (replace("print(", "import os\nprint(", "code"), "one cell imports"),
-    "own colours": (replace(f"{COLOURS}  # colours of the suite", "", "code"), "sets the colours of the suite"),
+    "own colours": (
+        replace(f"{COLOURS}  # colours of the suite", "", "code"),
+        "sets the colours of the suite",
+    ),
     "long line": (stream("x" * 101 + "\n"), "prints 101 letters"),
     "no caption": (drop_caption, "the text cell after a figure"),
     "short caption": (short_caption, "at least 12 words"),
-    "two figures": (lambda nb: (c := first(nb, figures)).update(outputs=c.outputs * 2), "one figure a cell"),
-    "not executed": (lambda nb: first(nb, is_code).update(execution_count=None), "all cells executed"),
+    "two figures": (
+        lambda nb: (c := first(nb, figures)).update(outputs=c.outputs * 2),
+        "one figure a cell",
+    ),
+    "not executed": (
+        lambda nb: first(nb, is_code).update(execution_count=None),
+        "all cells executed",
+    ),
     "widget state": (lambda nb: nb.metadata.update(widgets={}), "no stored widget state"),
-    "widget view": (output(output_type="display_data", data={WIDGET + "view+json": {}}), "no stored widget view"),
+    "widget view": (
+        output(output_type="display_data", data={WIDGET + "view+json": {}}),
+        "no stored widget view",
+    ),
     "unmarked print": (stream("hello\n"), "prints: mark it"),
     "silent mark": (lambda nb: first(nb, prints).update(outputs=[]), "marked but prints nothing"),
-    "double mark": (replace(f"# {MARKED}", f"# {MARKED}\n# not compared: why", "code"), "marked both"),
+    "double mark": (
+        replace(f"# {MARKED}", f"# {MARKED}\n# not compared: why", "code"),
+        "marked both",
+    ),
     "error": (output(output_type="error", ename="E", evalue="", traceback=[]), "no stored error"),
     "warning": (stream("careful", "stderr"), "no stored warning"),
     "machine path": (stream("/home/someone/x.csv\n"), "no path of a machine"),

@@ -1,4 +1,5 @@
-"""Storing outputs (tools/notebooks.py) and comparing them (nbval, conftest.py): both must fail when they should."""
+"""Storing outputs (tools/notebooks.py) and comparing them (nbval, conftest.py): both must fail when
+they should."""
 
 import importlib.util
 import os
@@ -43,7 +44,10 @@ def test_what_is_stored_depends_on_the_cells_alone(tool, tmp_path):
         "import ipywidgets as widgets\nwidgets.VBox([widgets.FloatSlider(), widgets.Label('x')])",
     )
     page.metadata = {"widgets": {}, "kernelspec": {"name": "someones-own", "display_name": "Mine"}}
-    page.cells[1].metadata = {"tags": ["kept"], "execution": {"iopub.status.busy": "2020-01-01T00:00:00"}}
+    page.cells[1].metadata = {
+        "tags": ["kept"],
+        "execution": {"iopub.status.busy": "2020-01-01T00:00:00"},
+    }
     nbformat.write(page, path)
     line, good = tool.store(path)
     assert good and line.startswith("stored")
@@ -75,8 +79,16 @@ def test_a_notebook_that_raises_is_not_stored(tool, tmp_path):
     ("kind", "output", "reason"),
     [
         ("stream", {"name": "stderr", "text": "UserWarning: careful"}, "warns"),
-        ("error", {"ename": "ValueError", "evalue": "no", "traceback": []}, "raises ValueError: no"),
-        ("execute_result", {"data": {"text/plain": "<function f at 0x7f00deadbeef>"}}, "memory address"),
+        (
+            "error",
+            {"ename": "ValueError", "evalue": "no", "traceback": []},
+            "raises ValueError: no",
+        ),
+        (
+            "execute_result",
+            {"data": {"text/plain": "<function f at 0x7f00deadbeef>"}},
+            "memory address",
+        ),
     ],
 )
 def test_outputs_that_are_refused(tool, kind, output, reason):
@@ -127,7 +139,8 @@ def stripped(page):
 
 
 def test_a_changed_digit_and_a_stripped_notebook_fail(tmp_path):
-    """The real settings on three copies of a stored notebook: as it is, one digit changed, outputs removed."""
+    """The real settings on three copies of a stored notebook: as it is, one digit changed, outputs
+    removed."""
     for name in ("conftest.py", "pyproject.toml", "tests/nbval_sanitize.cfg"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         shutil.copy(ROOT / name, tmp_path / name)
@@ -137,9 +150,21 @@ def test_a_changed_digit_and_a_stripped_notebook_fail(tmp_path):
         if change:
             change(page)
         nbformat.write(page, tmp_path / f"{name}.ipynb")
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
+    environment = {
+        name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")
+    }
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-q", "--color=no", "-p", "no:cacheprovider", "--rootdir=.", "."],
+        [
+            sys.executable,
+            "-m",
+            "pytest",
+            "-q",
+            "--color=no",
+            "-p",
+            "no:cacheprovider",
+            "--rootdir=.",
+            ".",
+        ],
         cwd=tmp_path,
         env=environment,
         capture_output=True,
@@ -163,7 +188,8 @@ def test_pictures_are_stored_small_and_look_the_same(tool):
     stored = tool.with_few_colours(b64encode(whole.getvalue()).decode())
     assert len(b64decode(stored)) < 0.6 * len(whole.getvalue())
     before, after = (
-        np.asarray(Image.open(BytesIO(b)).convert("RGB"), dtype=float) for b in (whole.getvalue(), b64decode(stored))
+        np.asarray(Image.open(BytesIO(b)).convert("RGB"), dtype=float)
+        for b in (whole.getvalue(), b64decode(stored))
     )
     assert before.shape == after.shape
     assert np.abs(before - after).mean() < 1.0

@@ -20,7 +20,9 @@ def floats(value):
 
 def test_every_float_of_a_toml_file_moves_and_nothing_else():
     text = (DATA / "decks" / "viaduct36.toml").read_text(encoding="utf-8")
-    before, after = (floats(tomllib.loads(t)) for t in (text, perturb.perturbed(text, True, random.Random(0))))
+    before, after = (
+        floats(tomllib.loads(t)) for t in (text, perturb.perturbed(text, True, random.Random(0)))
+    )
     moved = 0
     for a, b in zip(before, after, strict=True):
         if isinstance(a, float) and a != 0.0:

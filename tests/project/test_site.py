@@ -1,4 +1,7 @@
-"""What the site is laid out from: captions, texts for pictures, links, the list of functions. The build itself runs in CI."""
+"""What the site is laid out from: captions, texts for pictures, links, the list of functions.
+
+The build itself runs in CI.
+"""
 
 import re
 from base64 import b64encode
@@ -15,7 +18,10 @@ import site_pages
 from notebooks import PANEL_TEXT
 
 NOTEBOOKS = sorted((Path(__file__).resolve().parents[2] / "notebooks").glob("[0-9][0-9]_*.ipynb"))
-CAPTION = "**Figure 4.1.** Waves of 14.4 m, as in Eq. 3 of\nthe *paper*. Then $V/\\lambda$ falls.\n\nMore text."
+CAPTION = (
+    "**Figure 4.1.** Waves of 14.4 m, as in Eq. 3 of\nthe *paper*. Then $V/\\lambda$ "
+    "falls.\n\nMore text."
+)
 
 
 def png(width=900, height=450):
@@ -25,20 +31,25 @@ def png(width=900, height=450):
 
 
 def drawn(*images):
-    shown = [new_output("display_data", {"image/png": b64encode(image).decode()}) for image in images]
+    shown = [
+        new_output("display_data", {"image/png": b64encode(image).decode()}) for image in images
+    ]
     return new_code_cell("plt.show()", outputs=shown)
 
 
 @pytest.fixture
 def page():
-    """A notebook with a figure, a picture without caption, a caption without picture, and a panel."""
+    """A notebook with a figure, a picture and a caption without the other, and a panel."""
     panel = new_output("display_data", {"text/plain": PANEL_TEXT})
     return new_notebook(
         cells=[
-            new_markdown_cell("# 04 - Find\n\nSee [the README](../README.md#start) and [03](03_x.ipynb)."),
+            new_markdown_cell(
+                "# 04 - Find\n\nSee [the README](../README.md#start) and [03](03_x.ipynb)."
+            ),
             drawn(png(), png(800)),
             new_markdown_cell(
-                "**Figure 4.1.** Waves of 14.4 m, as in Eq. 3 of\nthe *paper*. Then $V/\\lambda$ falls.\n\nMore text."
+                "**Figure 4.1.** Waves of 14.4 m, as in Eq. 3 of\nthe *paper*. Then "
+                "$V/\\lambda$ falls.\n\nMore text."
             ),
             drawn(png()),
             new_markdown_cell("No caption."),
@@ -53,7 +64,9 @@ def test_a_figure_is_a_picture_with_its_caption_below(page):
     (figure,) = site_pages.figures(page, "04_x")
     assert (figure.number, figure.anchor, figure.notebook) == ("4.1", "figure-4-1", "04_x")
     assert figure.title == "Waves of 14.4 m, as in Eq. 3 of the *paper*."
-    assert figure.alt == "Figure 4.1. Waves of 14.4 m, as in Eq. 3 of the paper. Then V/lambda falls."
+    assert (
+        figure.alt == "Figure 4.1. Waves of 14.4 m, as in Eq. 3 of the paper. Then V/lambda falls."
+    )
     assert Image.open(BytesIO(figure.png)).width == 800  # the last picture stands above the caption
 
 
@@ -64,7 +77,9 @@ def test_page_has_places_texts_and_sentences(page):
     assert "mystnb" not in made.cells[3].metadata
     assert made.cells[6].source == "**Figure 4.2.** Nothing was drawn."
     assert PANEL_TEXT in made.cells[7].outputs[0].data["text/html"]
-    assert "](../index.md#start)" in made.cells[0].source and "](03_x.ipynb)" in made.cells[0].source
+    assert (
+        "](../index.md#start)" in made.cells[0].source and "](03_x.ipynb)" in made.cells[0].source
+    )
 
 
 def test_thumbnails_are_small_and_keep_their_shape():
@@ -93,8 +108,14 @@ def test_every_stored_caption_finds_its_picture(path):
     moving = [n for n in written if n not in found]  # an animation has no picture to make small
     cells = {i: site_pages.caption_below(notebook.cells, i) for i in range(len(notebook.cells))}
     for number in moving:
-        above = next(notebook.cells[i] for i, caption in cells.items() if caption and caption.group(1) == number)
-        assert any("text/html" in out.get("data", {}) for out in above.outputs), f"Figure {number} has no picture"
+        above = next(
+            notebook.cells[i]
+            for i, caption in cells.items()
+            if caption and caption.group(1) == number
+        )
+        assert any("text/html" in out.get("data", {}) for out in above.outputs), (
+            f"Figure {number} has no picture"
+        )
     assert len(set(found)) == len(found)
 
 

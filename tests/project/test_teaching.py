@@ -1,4 +1,5 @@
-"""The teacher's page: its links, names, times and marking numbers are true, and every misconception stands where it says."""
+"""The teacher's page: its links, names, times and marking numbers are true, and every misconception
+stands where it says."""
 
 import re
 import shlex
@@ -15,7 +16,9 @@ from railbridge.cases import command as cli
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "teaching.md"
 TEXT = PAGE.read_text(encoding="utf-8")
-NOTEBOOKS = {path.name[:2]: path for path in sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))}
+NOTEBOOKS = {
+    path.name[:2]: path for path in sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+}
 
 
 def words_of(number):
@@ -32,11 +35,21 @@ def shown_by(number):
 
 def flat(text):
     """Without line breaks, formula marks and quotes, in lower case: what a reader compares."""
-    return re.sub(r"[\s*\"]+", " ", re.sub(r"\$([^$]*)\$", lambda m: re.sub(r"[ _\\,]", "", m.group(1)), text)).lower().strip()
+    return (
+        re.sub(
+            r"[\s*\"]+",
+            " ",
+            re.sub(r"\$([^$]*)\$", lambda m: re.sub(r"[ _\\,]", "", m.group(1)), text),
+        )
+        .lower()
+        .strip()
+    )
 
 
 def section(title):
-    return re.search(rf"^#+ {re.escape(title)}\n(.*?)(?=^#|\Z)", TEXT, re.MULTILINE | re.DOTALL).group(1)
+    return re.search(
+        rf"^#+ {re.escape(title)}\n(.*?)(?=^#|\Z)", TEXT, re.MULTILINE | re.DOTALL
+    ).group(1)
 
 
 def rows(title):
@@ -56,7 +69,9 @@ def test_every_link_leads_somewhere():
         path = (PAGE.parent / name).resolve() if name else PAGE
         assert path.is_file(), target
         if part:
-            assert part in map(anchor, re.findall(r"^#+ (.*)$", headings[path], re.MULTILINE)), target
+            assert part in map(anchor, re.findall(r"^#+ (.*)$", headings[path], re.MULTILINE)), (
+                target
+            )
 
 
 def test_minutes_are_those_the_notebooks_give():
@@ -68,7 +83,9 @@ def test_minutes_are_those_the_notebooks_give():
         assert int(exercises) >= int(reading)
 
 
-@pytest.mark.parametrize(("title", "minutes"), [("A lab of 2 hours", 120), ("A unit of 6 hours", 360)])
+@pytest.mark.parametrize(
+    ("title", "minutes"), [("A lab of 2 hours", 120), ("A unit of 6 hours", 360)]
+)
 def test_a_path_takes_the_time_it_promises(title, minutes):
     assert sum(int(row[0]) for row in rows(title)) == minutes
 
@@ -88,7 +105,8 @@ def test_exercises_figures_equations_and_sections_that_are_named_exist():
 
 
 def test_exercises_of_other_notebooks_are_not_missed():
-    """The pattern above follows lists such as '1.3' after a full stop too: all that look like an exercise of a session."""
+    """The pattern above follows lists such as '1.3' after a full stop too: all that look like an
+    exercise of a session."""
     for number, _ in re.findall(r"(?:Homework: |Exercises? |and )(\d\.\d)(\D)", TEXT):
         assert f"### Exercise {number} (" in words_of(f"0{number[0]}"), number
 
@@ -101,8 +119,14 @@ def test_every_misconception_stands_in_its_notebook_where_the_table_says():
         text = words_of(number)
         main, _, rest = where.partition(": ")
         title = rest.split("; ")[0]
-        part = re.search(rf"^## {re.escape(main)}\n(.*?)(?=^## |\Z)", text, re.MULTILINE | re.DOTALL).group(1)
-        below = re.search(rf"^### {re.escape(title)}\n(.*?)(?=^### |\Z)", part.replace("$l$", "l"), re.MULTILINE | re.DOTALL)
+        part = re.search(
+            rf"^## {re.escape(main)}\n(.*?)(?=^## |\Z)", text, re.MULTILINE | re.DOTALL
+        ).group(1)
+        below = re.search(
+            rf"^### {re.escape(title)}\n(.*?)(?=^### |\Z)",
+            part.replace("$l$", "l"),
+            re.MULTILINE | re.DOTALL,
+        )
         assert below, (number, title)
         key = flat(said)
         assert key in flat(title + "\n" + below.group(1)) or not said.startswith('"'), said
@@ -155,17 +179,27 @@ def asked(v):
 def answers(v):
     """What the marking table must say, computed here."""
     table1 = rb.car_parameters("xia2000")
-    softer = table1 | {"secondary_vertical_stiffness": v.soft * table1["secondary_vertical_stiffness"]}
+    softer = table1 | {
+        "secondary_vertical_stiffness": v.soft * table1["secondary_vertical_stiffness"]
+    }
     series = 1 / (1 / (4 * v.soft * 1060e3) + 1 / (8 * 2976e3))
     modes = rb.two_bogie_car("softer", **softer).modes()
     # By name: softer, bounce changes places with yaw.
-    by_hand, exact = np.sqrt(series / 50990) / (2 * np.pi), modes.frequencies_hz[modes.names.index("car z")]
+    by_hand, exact = (
+        np.sqrt(series / 50990) / (2 * np.pi),
+        modes.frequencies_hz[modes.names.index("car z")],
+    )
     car, waves = rb.vehicle("xia2000"), rb.Track(vertical=rb.Harmonic(5e-3, v.wave))
-    delayed, in_phase = (abs(rb.steady_forces(car, waves, 20.0, how)[:, 1].sum()) / 1e3 for how in ("wheels", "car"))
+    delayed, in_phase = (
+        abs(rb.steady_forces(car, waves, 20.0, how)[:, 1].sum()) / 1e3 for how in ("wheels", "car")
+    )
     share = np.cos(2 * np.pi * 7.8 / v.wave) * np.cos(2 * np.pi * 1.25 / v.wave)
     assert np.isclose(delayed / in_phase, abs(share))
     length, first = v.span
-    quotient, sag = (2 * length**2 * first / np.pi) ** 2, 1e3 * 5 * np.pi**2 * 9.81 / (1536 * first**2)
+    quotient, sag = (
+        (2 * length**2 * first / np.pi) ** 2,
+        1e3 * 5 * np.pi**2 * 9.81 / (1536 * first**2),
+    )
     middle = v.car_on / 2
     beam = rb.Beam("span", (v.car_on,), 9e3, 2e10).deck(modes=3)
     x = middle + np.array([-9.05, -6.55, 6.55, 9.05])
@@ -174,7 +208,11 @@ def answers(v):
         line = beam.recovery.section(quantity, middle)
         cost.append(line.influence([middle])[0, 0, 1] / line.influence(x)[:, 0, 1].mean())
     omega = 2 * np.pi * 3.307
-    force = abs(rb.steady_forces(car, rb.Track(vertical=rb.Harmonic(1.0, 20.0 / 3.307)), 20.0, "car")[:, 1].sum())
+    force = abs(
+        rb.steady_forces(car, rb.Track(vertical=rb.Harmonic(1.0, 20.0 / 3.307)), 20.0, "car")[
+            :, 1
+        ].sum()
+    )
     gain = [force * 2 / (mass * 36.0) / (0.06 * omega**2) for mass in (v.light * 12e3, 12e3)]
     changes = v.changes[0] * (v.changes[1] / v.changes[0]) ** np.arange(20)
     passes = next(i + 1 for i in range(1, 20) if max(changes[i - 1 : i + 1]) < 1e-8)
@@ -193,7 +231,11 @@ def answers(v):
 @pytest.mark.parametrize("version", VERSIONS)
 def test_marking_numbers_are_computed(version):
     v = VERSIONS[version]
-    table = {row[0].split()[0]: row for row in rows("Numbers for marking") if row[0].split()[1] == version}
+    table = {
+        row[0].split()[0]: row
+        for row in rows("Numbers for marking")
+        if row[0].split()[1] == version
+    }
     assert {name: row[3] for name, row in table.items()} == answers(v)
     for name, part in asked(v).items():
         assert part in table[name][2], name
@@ -227,16 +269,25 @@ def test_every_objective_is_met_in_the_unit_and_marks_add_up():
     assert met == objectives
     marks = [(row[0], int(row[2])) for row in rows("What is handed in, and marks")]
     assert dict(marks)["unit"] == 2 * len(objectives)
-    assert sum(m for path, m in marks if path == "lab") == 2 + 2 * len(set(re.findall(r"M\d", section("A lab of 2 hours"))))
+    assert sum(m for path, m in marks if path == "lab") == 2 + 2 * len(
+        set(re.findall(r"M\d", section("A lab of 2 hours")))
+    )
 
 
 def test_commands_of_the_page_are_known(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    shown = [line for block in re.findall(r"```\n(.*?)```", TEXT, re.DOTALL) for line in block.splitlines()]
+    shown = [
+        line
+        for block in re.findall(r"```\n(.*?)```", TEXT, re.DOTALL)
+        for line in block.splitlines()
+    ]
     assert shown[0] == "railbridge copy-notebooks course"
     assert cli.main(shlex.split(shown[0])[1:]) == 0
     assert Path("course/03_rigid_deck_forces.ipynb").is_file()
-    assert "open them with: python -m jupyterlab course" in capsys.readouterr().out and "python -m jupyterlab course" in shown
+    assert (
+        "open them with: python -m jupyterlab course" in capsys.readouterr().out
+        and "python -m jupyterlab course" in shown
+    )
     assert "python -m pytest --nbval-lax 03_rigid_deck_forces.ipynb" in shown
     assert "python -m pytest -q --nbval-lax submissions" in shown
     Path("course/03_rigid_deck_forces.ipynb").write_text("edited")

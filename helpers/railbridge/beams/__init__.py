@@ -6,5 +6,6 @@ from .mesh import BeamModes
 from .properties import BeamProperties, Section, checked_spans
 
 __all__ = [
-    "FIXITIES", "Beam", "BeamModes", "BeamProperties", "Bearing", "Section", "checked_spans", "on_deck",
+    "FIXITIES", "Beam", "BeamModes", "BeamProperties", "Bearing", "Section", "checked_spans",
+    "on_deck",
 ]  # fmt: skip

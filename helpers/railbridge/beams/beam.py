@@ -52,8 +52,9 @@ class Beam(BeamProperties):
         width: float | None = None,
         track_height: float = 0.0,
     ) -> Deck:
-        """Return the modal deck of the lowest modes that loads can excite (purely axial ones are
-        left out).
+        """Return the modal deck of the lowest modes that loads can excite.
+
+        Purely axial modes are left out.
 
         Parameters
         ----------

@@ -100,8 +100,7 @@ class Bearing:
         return tuple(n for n in FIXITIES if n in self.fixed or n in self.stiffness)
 
     def row(self, freedom: str, centroid: float = 0.0) -> np.ndarray:
-        """Return the bearing's displacement or rotation in a direction from its node's freedoms,
-        shape (6,).
+        """Return the bearing's displacement or rotation from its node's freedoms, shape (6,).
 
         Freedoms of a node: u (of the centroid, `centroid` m above the axis), v, w, theta_x,
         theta_z, -theta_y.
@@ -140,8 +139,7 @@ def on_deck(x: float, ends: np.ndarray) -> float:
 
 
 def null_space(rows: np.ndarray) -> np.ndarray:
-    """Return the motions of a node (columns) that `rows`, shape (r, n), leave free, shape (n, n -
-    rank).
+    """Return the motions of a node, shape (n, n - rank), that `rows`, shape (r, n), leave free.
 
     By elimination from the left, so that freedoms which no row couples stay themselves. Rows that
     say nothing new, as two bearings on one section that both hold y, are passed over.
@@ -181,8 +179,9 @@ def free_motions(
     centroid: float,
     reference: Mapping[str, float],
 ) -> list[str]:
-    """Return in words the rigid-body motions that the bearings leave free; empty when the piece is
-    held.
+    """Return in words the rigid-body motions that the bearings leave free.
+
+    Empty when the piece is held.
 
     Parameters
     ----------

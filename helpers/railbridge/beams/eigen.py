@@ -1,5 +1,7 @@
-"""Lowest modes of large sparse models: K phi = omega^2 M phi with symmetric positive definite
-matrices."""
+"""Lowest modes of large sparse models.
+
+K phi = omega^2 M phi with symmetric positive definite matrices.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +13,7 @@ __all__ = ["count_below", "factorised", "lowest"]
 
 
 def factorised(k: csc_array) -> SuperLU:
-    """Return a factorisation of a symmetric matrix that keeps its diagonal as pivots, and so its
-    few entries."""
+    """Factorise a symmetric matrix with its diagonal as pivots, which keeps it sparse."""
     return splu(
         csc_array(k),
         permc_spec="MMD_AT_PLUS_A",
@@ -49,8 +50,9 @@ def lowest(k: csc_array, m: csc_array, count: int) -> tuple[np.ndarray, np.ndarr
 
 
 def count_below(k: csc_array, m: csc_array, square: float) -> int | None:
-    """Return how many modes lie below omega^2 = `square` (Sylvester: negative pivots of K - omega^2
-    M).
+    """Return how many modes lie below omega^2 = `square` (Sylvester.
+
+    Negative pivots of K - omega^2 M).
 
     None where the factorisation had to leave the diagonal, so that the signs of its pivots say
     nothing.

@@ -119,6 +119,5 @@ def matrices(
 
 
 def coupling(h: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Return the integral of the product of two fields' shapes along every element, shape (e, n1,
-    n2)."""
+    """Integrate the product of two fields' shapes along every element, shape (e, n1, n2)."""
     return h[:, None, None] * (np.swapaxes(first, 1, 2) @ POWERS @ second)

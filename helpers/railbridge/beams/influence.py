@@ -67,8 +67,10 @@ class BeamRecovery:
         self._lines: dict[tuple, Line | None] = {}
 
     def section(self, quantity: str, x: float) -> Line | None:
-        """Return the line of a displacement or section force at x (m); at an inner bearing the face
-        just before it."""
+        """Return the line of a displacement or section force at x (m).
+
+        At an inner bearing the face just before it.
+        """
         errors.choice("quantity", quantity, SECTION_QUANTITIES)
         x = errors.number(
             "x", x, least=0.0, most=self.beam.length, unit="m", remedy="x runs along the deck"
@@ -76,14 +78,17 @@ class BeamRecovery:
         return self._cached((quantity, float(x)), self._section, quantity, x)
 
     def reaction(self, quantity: str, support: float) -> Line | None:
-        """Return the line of a reaction on the deck at the bearing line `support` (m): all bearings
-        there, about the axis."""
+        """Return the line of a reaction on the deck at the bearing line `support` (m).
+
+        All bearings there, about the axis.
+        """
         errors.choice("quantity", quantity, REACTION_QUANTITIES)
         return self._cached((quantity, float(support), "line"), self._reaction, quantity, support)
 
     def bearing(self, number: int, quantity: str) -> Line | None:
-        """Return the line of the force or moment of one bearing (from 1) on the deck, None where it
-        holds no such freedom.
+        """Return the line of the force or moment of one bearing (from 1) on the deck.
+
+        None where it holds no such freedom.
 
         Rigid bearings on one section that share a force which statics alone does not split, as two
         that both hold y, share it as equally stiff ones would.
@@ -177,8 +182,10 @@ class BeamRecovery:
 
     @cached_property
     def _inertia(self) -> np.ndarray:
-        """Nodal loads of the modes' own inertia, omega^2 M phi, and last those of a unit vertical
-        acceleration."""
+        """Nodal loads of the modes' own inertia, omega^2 M phi.
+
+        The last are those of a unit vertical acceleration.
+        """
         mesh = self.mesh
         lifted = np.zeros(mesh.size)
         lifted[2 : 6 * len(mesh.nodes) : 6] = 1.0
@@ -191,8 +198,9 @@ class BeamRecovery:
         modal: np.ndarray | float = 0.0,
         weight: float = 0.0,
     ) -> Line:
-        """Attach the modal values: the static effect of each mode's own inertia load, S_m = omega^2
-        int line m phi dx.
+        """Attach the modal values.
+
+        The static effect of each mode's own inertia load, S_m = omega^2 int line m phi dx.
 
         `moved` is the influence line in nodal freedoms; `modal` and `weight` add what it lacks
         inside one element.
@@ -209,8 +217,10 @@ class BeamRecovery:
         turn: np.ndarray,
         taken_off: np.ndarray,
     ) -> tuple[np.ndarray, float]:
-        """Return the inertia of every mode, and of a unit vertical acceleration, on g less its
-        interpolation in element e."""
+        """Return the work of inertia on g less its interpolation in element e.
+
+        For every mode, and last for a unit vertical acceleration.
+        """
         beam, mesh = self.beam, self.mesh
         h = mesh.h[e]
         s = np.concatenate([cut * (_POINTS + 1) / 2, cut + (1.0 - cut) * (_POINTS + 1) / 2])
@@ -248,8 +258,7 @@ class BeamRecovery:
 def _cut(
     shape: PiecewiseCubic, e: int, cut: float, component: int, jump: np.ndarray
 ) -> PiecewiseCubic:
-    """Cut element e in two at the local coordinate `cut`, and add `jump`, powers of (s - cut),
-    behind it."""
+    """Cut element e at the local coordinate `cut`; add `jump`, powers of (s - cut), behind it."""
     halves = []
     for start, length in ((0.0, cut), (cut, 1.0 - cut)):
         # Powers of s = start + length t in powers of t.

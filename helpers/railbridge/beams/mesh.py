@@ -76,14 +76,14 @@ class BeamModes:
 
     @property
     def excitable(self) -> np.ndarray:
-        """Which modes loads on the deck can excite, those that move it sideways, up or in twist,
-        shape (m,)."""
+        """Which modes loads can excite: those that move the deck sideways, up or in twist."""
         return self.energies["axial"] < 1.0 - 1e-12
 
 
 class Mesh:
-    """Assembled matrices over given elements. Freedoms: six a node, then axial and twist mid-nodes
-    of each element.
+    """Assembled matrices over given elements.
+
+    Freedoms: six a node, then axial and twist mid-nodes of each element.
 
     Attributes
     ----------
@@ -123,8 +123,10 @@ class Mesh:
         }
 
     def node(self, x: float, piece: int | None = None) -> int:
-        """Return the node at x (m); at a joint that of the given simple span (from 0), or else the
-        first."""
+        """Return the node at x (m).
+
+        At a joint that of the given simple span (from 0), or else the first.
+        """
         distance = np.abs(self.nodes - x)
         if piece is not None:
             distance = np.where(self._pieces == piece, distance, np.inf)
@@ -135,7 +137,7 @@ class Mesh:
         return np.flatnonzero(np.abs(self.nodes - x) < 1e-9 * self.edges[-1])
 
     def shape_matrix(self, name: str, element: int) -> np.ndarray:
-        """Return T: powers of the local coordinate from the element's freedoms, shape (4, 3 or 4)."""
+        """T: powers of the local coordinate from the element's freedoms, shape (4, 3 or 4)."""
         return self.shapes[name][element]
 
     @cached_property
@@ -198,16 +200,17 @@ class Mesh:
         return np.array(sorted(p for name in self.beam.fields for p in _PLACE[name]))
 
     def row(self, bearing: int, freedom: str) -> np.ndarray:
-        """Return the motion of a bearing (from 0) from its node's freedoms, those the beam lacks at
-        rest, shape (6,)."""
+        """Return the motion of a bearing (from 0) from its node's freedoms, shape (6,).
+
+        Freedoms that the beam lacks are at rest.
+        """
         row = np.zeros(6)
         whole = self.beam.bearings[bearing].row(freedom, self.beam.centroid_height)
         row[self._present] = whole[self._present]
         return row
 
     def rigid_rows(self, node: int) -> tuple[list[tuple[int, str]], np.ndarray]:
-        """Return which bearings hold which freedoms of a node rigidly, and the rows that say so,
-        shape (r, 6)."""
+        """Which bearings hold a node rigidly, where, and the rows that say so, shape (r, 6)."""
         keys = [
             (i, f)
             for i, n in enumerate(self.places)
@@ -274,8 +277,9 @@ class Mesh:
     # ---- modes
 
     def modes(self, wanted: int | None = None) -> BeamModes:
-        """Solve each uncoupled group of freedoms on its own: a straight beam on bearings in its
-        axis falls into four.
+        """Solve each uncoupled group of freedoms on its own.
+
+        A straight beam on bearings in its axis falls into four.
 
         Parameters
         ----------
@@ -303,8 +307,10 @@ class Mesh:
     def _lowest(
         self, k: csr_array, m: csr_array, groups: list[np.ndarray], count: int | None
     ) -> BeamModes:
-        """Return the `count` lowest modes and some more, as far as every group is known; all modes
-        if None."""
+        """Return the `count` lowest modes and some more, as far as every group is known.
+
+        All modes if None.
+        """
         solved, known = [], np.inf
         for here in groups:
             own = k[here][:, here], m[here][:, here]
@@ -340,7 +346,7 @@ class Mesh:
         return {name: part / whole for name, part in result.items()}
 
     def interpolate(self, vectors: np.ndarray) -> PiecewiseCubic:
-        """Return lateral, vertical and twist shapes of nodal vectors, shape (size, n) or (size,)."""
+        """Lateral, vertical and twist shapes of nodal vectors, shape (size, n) or (size,)."""
         vectors = vectors.reshape(self.size, -1)
         result = np.zeros((len(self.h), 4, vectors.shape[1], 3))
         for c, name in enumerate(("lateral", "vertical", "torsion")):
@@ -350,8 +356,10 @@ class Mesh:
 
 
 def _lowest_of(k: csr_array, m: csr_array, wanted: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return omega^2 and shapes of one group of freedoms: at least the `wanted` lowest, none left
-    out below the last."""
+    """Return omega^2 and shapes of one group of freedoms.
+
+    At least the `wanted` lowest, none left out below the last.
+    """
     size, more = k.shape[0], wanted + _SPARE
     if size > DENSE and more < size // 4:
         values, shapes = lowest(csc_array(k), csc_array(m), more)

@@ -226,8 +226,10 @@ class BeamProperties:
         }[name]
 
     def shear_flexibility(self, name: str) -> float:
-        """Return E I / kGA of a bending field, m2; 0 where it is rigid in shear, and of the other
-        fields."""
+        """Return E I / kGA of a bending field, m2.
+
+        0 where it is rigid in shear, and of the other fields.
+        """
         shear = {
             "lateral": self.shear_stiffness_lateral,
             "vertical": self.shear_stiffness_vertical,
@@ -235,7 +237,7 @@ class BeamProperties:
         return 0.0 if shear is None else self.stiffness_of(name) / shear
 
     def rotary_inertia(self, name: str) -> float:
-        """Return m r^2 of a bending field, kg m; 0 where it is left out, and of the other fields."""
+        """M r^2 of a bending field, kg m; 0 where it is left out, and of the other fields."""
         return {
             "lateral": self.rotary_inertia_lateral,
             "vertical": self.rotary_inertia_vertical,
@@ -283,8 +285,7 @@ class BeamProperties:
         return np.unique(np.concatenate([self._span_ends, [b.x for b in self.bearings]]))
 
     def _refuse_missing_stiffness(self, bearing: Bearing) -> None:
-        """Refuse a bearing that would hold the deck's turning only because the shift that goes with
-        it is left out."""
+        """Refuse a bearing that would hold the deck's turning only because a shift is left out."""
         keys = {"x": ("axial", "axial_stiffness"), "y": ("lateral", "bending_stiffness_lateral")}
         turns = {"axial": (), "lateral": ("yaw",), "vertical": ("pitch",), "torsion": ("roll",)}
         turning = [t for name in self.fields for t in turns[name]]
@@ -293,14 +294,16 @@ class BeamProperties:
             row = bearing.row(freedom, self.centroid_height)
             coupled = [t for t in turning if row[places[t]] != 0.0]
             if freedom in bearing.held and name not in self.fields and coupled:
-                beside = f"is held beside the axis, which would also hold {' and '.join(coupled)} unless the deck gives that way"
+                beside = (
+                    "is held beside the axis, which would also hold "
+                    f"{' and '.join(coupled)} unless the deck gives that way"
+                )
                 raise InputError(
                     freedom, None, beside, f"Give {key}, or put the bearing into the axis"
                 )
 
     def _refuse_close_lines(self) -> None:
-        """Refuse spans and distances of bearings so short that round-off would spoil the modes of
-        the whole deck."""
+        """Refuse spans and distances of bearings so short that round-off would spoil the modes."""
         seen = set()
         for i, b in enumerate(self.bearings, start=1):
             place = (b.x, round(b.y, 6), round(b.z, 6), self.piece(b))
@@ -316,8 +319,7 @@ class BeamProperties:
             raise InputError("spans", list(self.spans), allowed, "Merge the two lines")
 
     def _refuse_mechanism(self) -> None:
-        """Check that the bearings hold every rigid-body motion the beam, and each simple span, is
-        free to make."""
+        """Check that the bearings hold all rigid-body motions of beam and simple spans."""
         moving = {
             "x": "axial",
             "y": "lateral",

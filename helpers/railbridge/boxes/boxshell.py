@@ -1,5 +1,7 @@
-"""The shell of a box girder: points and strips of its section, stations, diaphragms, pads under its
-webs."""
+"""The shell of a box girder.
+
+Points and strips of its section, stations, diaphragms, pads under its webs.
+"""
 
 from __future__ import annotations
 

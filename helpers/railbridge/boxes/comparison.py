@@ -1,5 +1,7 @@
-"""Modes of two models side by side: how much alike, which belongs to which, a shell's against a
-beam's."""
+"""Modes of two models side by side.
+
+How much alike, which belongs to which, a shell's against a beam's.
+"""
 
 from __future__ import annotations
 
@@ -16,8 +18,9 @@ __all__ = ["beam_motions", "mac", "pairs", "shell_against_beam"]
 
 
 def mac(a: np.ndarray, b: np.ndarray, weights: np.ndarray | None = None) -> np.ndarray:
-    """Return the modal assurance criterion of two sets of shapes: ``(a.b)^2 / (a.a b.b)`` with
-    weights (mass).
+    """Return the modal assurance criterion of two sets of shapes.
+
+    ``(a.b)^2 / (a.a b.b)`` with weights (mass).
 
     Parameters
     ----------

@@ -110,8 +110,10 @@ class Box(BoxDimensions):
     def beam_deck(
         self, modes: int = 20, damping: tuple[float, float] | float = 0.0, **switches: bool
     ) -> Deck:
-        """Return the modal deck of the beam, its rails on top of the slab; see `beam` for the
-        switches."""
+        """Return the modal deck of the beam, its rails on top of the slab.
+
+        See `beam` for the switches.
+        """
         height = self.depth - self.section.shear_centre[1]
         return self.beam(**switches).deck(
             modes, damping, dict(self.tracks), self.slab_width, height
@@ -156,8 +158,10 @@ class Box(BoxDimensions):
         )
 
     def convergence(self, factors: tuple[float, ...] = (0.5, 1.0, 1.5, 2.0), modes: int = 15):
-        """Return a pandas DataFrame of the shell's frequencies (Hz) on meshes of `factors` times
-        the default; pads stay."""
+        """Return the shell's frequencies (Hz) on meshes of `factors` times the default.
+
+        A pandas DataFrame; the pads stay where they are.
+        """
         import pandas as pd
 
         columns = {}

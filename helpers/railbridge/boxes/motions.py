@@ -20,7 +20,8 @@ KINDS = ("vertical", "lateral", "torsion", "axial", "local")
 """The parts of a mode's kinetic energy."""
 
 _LABELS = {
-    "vertical": "vertical bending", "lateral": "lateral bending", "torsion": "torsion", "axial": "axial",
+    "vertical": "vertical bending", "lateral": "lateral bending", "torsion": "torsion",
+    "axial": "axial",
     "mixed": "axial-bending", "local": "local plate",
 }  # fmt: skip
 
@@ -60,8 +61,10 @@ class ShellModes:
     vectors: np.ndarray = field(repr=False)
 
     def to_frame(self):
-        """Return a pandas DataFrame with one row a mode: frequency, name, where it is local, shares
-        of energy in percent."""
+        """Return a pandas DataFrame with one row a mode.
+
+        Frequency, name, where it is local, shares of energy in percent.
+        """
         import pandas as pd
 
         columns = {
@@ -80,8 +83,9 @@ def sectionwise(shell: PlateModel, vectors: np.ndarray) -> np.ndarray:
 
 
 def section_motions(shell: PlateModel, vectors: np.ndarray) -> np.ndarray:
-    """Return the rigid motion of each section about its centre of mass that is nearest to nodal
-    vectors.
+    """Return the rigid motion of each section that is nearest to nodal vectors.
+
+    It turns about the centre of mass.
 
     Parameters
     ----------
@@ -110,8 +114,10 @@ def section_motions(shell: PlateModel, vectors: np.ndarray) -> np.ndarray:
 
 
 def described(shell: PlateModel, frequencies: np.ndarray, vectors: np.ndarray) -> ShellModes:
-    """Attach names, shares of energy and section motions to modes: frequencies (Hz) and
-    mass-normalised vectors."""
+    """Attach names, shares of energy and section motions to modes.
+
+    Frequencies (Hz) and mass-normalised vectors.
+    """
     motions, moved = section_motions(shell, vectors), sectionwise(shell, vectors)
     parts = np.einsum("s,a,sam->am", shell.tributary, shell.inertias, motions**2)
     total = np.einsum("s,p,spcm->m", shell.tributary, shell.point_masses, moved**2)
@@ -150,8 +156,10 @@ def _liveliest(shell: PlateModel, moved: np.ndarray) -> tuple[str, ...]:
 
 
 def _symmetric(shell: PlateModel, moved: np.ndarray) -> np.ndarray:
-    """Whether each mode is its own mirror image rather than its opposite; all true for a section
-    without mirror."""
+    """Whether each mode is its own mirror image rather than its opposite.
+
+    All true for a section without mirror.
+    """
     mirrored = shell.points * [-1.0, 1.0]
     away = np.linalg.norm(shell.points[:, None] - mirrored[None], axis=2)
     twin = np.argmin(away, axis=0)

@@ -50,8 +50,9 @@ class Pad:
 def held(
     pads: Sequence[Pad], stations: np.ndarray, points: int, size: int
 ) -> list[tuple[csr_array, float]]:
-    """Return what pads hold: rows over all freedoms that give mean displacements, and their
-    stiffness (inf: rigid).
+    """Return what pads hold.
+
+    Rows over all freedoms that give mean displacements, and their stiffness (inf: rigid).
 
     Parameters
     ----------
@@ -98,8 +99,7 @@ def _mean(pad: Pad, direction: str, stations: np.ndarray, points: int, size: int
 
 
 def _over(pad: Pad, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the stations x under a pad and weights that give mean and slope of a linear field over
-    it."""
+    """The stations under a pad and the weights of mean and slope of a linear field over it."""
     a, b = max(pad.x - pad.length / 2, x[0]), min(pad.x + pad.length / 2, x[-1])
     cuts = np.unique(np.concatenate([[a, b], x[(x > a) & (x < b)]]))
     # Two Gauss points integrate products of linear functions exactly on each piece.
@@ -118,8 +118,10 @@ def _over(pad: Pad, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def elimination(rows: Sequence[tuple[csr_array, float]], size: int) -> tuple[csr_array, np.ndarray]:
-    """Return what turns the freedoms that rigid bearings leave into all freedoms, and which are
-    left; see `held`."""
+    """Return what turns the freedoms that rigid bearings leave into all, and which are left.
+
+    See `held`.
+    """
     rigid = [row for row, stiffness in rows if np.isinf(stiffness)]
     if not rigid:
         return eye_array(size, format="csr"), np.arange(size)
@@ -146,8 +148,7 @@ def elimination(rows: Sequence[tuple[csr_array, float]], size: int) -> tuple[csr
 
 
 def free_count(rows: Sequence[tuple[csr_array, float]], nodes: np.ndarray, length: float) -> int:
-    """Return how many of the six rigid-body motions of nodes, shape (n, 3), the rows of `held`
-    leave free.
+    """Return how many rigid-body motions of nodes, shape (n, 3), the rows of `held` leave free.
 
     `length` (m) makes turning and moving comparable.
     """

@@ -78,8 +78,10 @@ def _fem():
 
 
 def _element(corners: np.ndarray, prop) -> tuple[np.ndarray, np.ndarray]:
-    """Return stiffness and mass of a four-node element with corners (4, 3) in global axes, shape
-    (24, 24) each."""
+    """Return stiffness and mass of a four-node element in global axes, shape (24, 24) each.
+
+    Its corners have the shape (4, 3).
+    """
     pyfe3d, _ = _fem()
     sizes = pyfe3d.Quad4Data()
     element = pyfe3d.Quad4(pyfe3d.Quad4Probe())
@@ -155,8 +157,10 @@ class PlateModel:
 
     @cached_property
     def quads(self) -> np.ndarray:
-        """Corner nodes of all elements, shape (e, 4): strip by strip along the deck, then the
-        plates."""
+        """Corner nodes of all elements, shape (e, 4).
+
+        Strip by strip along the deck, then the plates.
+        """
         return np.concatenate([self._strip_quads.reshape(-1, 4), *self._plate_quads])
 
     @cached_property
@@ -212,8 +216,10 @@ class PlateModel:
 
     @cached_property
     def _elements(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Equal elements together: their stiffness and mass, shape (24, 24), and corner nodes,
-        shape (e, 4)."""
+        """Equal elements together.
+
+        Their stiffness and mass, shape (24, 24), and corner nodes, shape (e, 4).
+        """
         result = []
         lengths = np.round(np.diff(self.stations), 9)
         for strip, row in zip(self.strips, self._strip_quads, strict=True):

@@ -1,5 +1,6 @@
-"""Section properties from an outline, by the library `sectionproperties` (finite elements over the
-section).
+"""Section properties from an outline, by the library `sectionproperties`.
+
+It uses finite elements over the section.
 
 Axes are those of the deck: y to the left, z up. An outline is a list of corners, in order, without
 repeating the first.
@@ -110,9 +111,7 @@ def section_properties(
     whole = Polygon(outline)
     for i, hole in enumerate(holes, start=1):
         if not whole.contains_properly(Polygon(hole)):
-            raise InputError(
-                f"holes[{i}]", hole, "must lie inside the outline and not touch it"
-            )
+            raise InputError(f"holes[{i}]", hole, "must lie inside the outline and not touch it")
     # A modulus of 1: the library's "modulus-weighted" results are then the plain ones.
     material = Material("unit", 1.0, ratio, 1.0, 1.0, "grey")
     geometry = Geometry(Polygon(outline, list(holes)), material)
@@ -170,7 +169,9 @@ def refuse_crossing(field: str, outline: np.ndarray) -> None:
         for j in range(i + 2, count if i else count - 1):
             if _cross(a[i], b[i], a[j], b[j]):
                 raise InputError(
-                    field, [outline[i].tolist(), outline[j].tolist()], "the edges that start at these corners cross",
+                    field, [outline[i].tolist(), outline[j].tolist()],
+                    "the edges that start at these corners "
+                        "cross",
                     "Give the corners in order, round the section once",
                 )  # fmt: skip
     y, z = outline.T

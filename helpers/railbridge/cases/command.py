@@ -40,21 +40,24 @@ KINDS = ("vehicles", "decks", "cases")
 DESCRIPTION = """\
 What a train does to a railway bridge: case files in, results out.
 
-A case file is TOML with five tables: [deck], [train], [track], [run] and [output]; all numbers are SI (m, kg, s, N).
+A case file is TOML with five tables: [deck], [train], [track],
+[run] and [output]; all numbers are SI (m, kg, s, N).
 """
 EXAMPLES = """\
 examples:
-  railbridge new case.toml                   write a commented case file that runs as it is; change it
-  railbridge check case.toml                 only say whether it can be run, and how large the run is
+  railbridge new case.toml                   write a commented case file that runs as it is
+  railbridge check case.toml                 say whether it can be run and how large the run is
   railbridge run case.toml --out results     run it; results/summary.json has the numbers
   railbridge run paper --out paper           run a shipped case by its name
   railbridge run case.toml --out fast --set run.speed=30 --set train.cars=4
   railbridge list                            vehicles, decks and cases that are shipped
-  railbridge copy-notebooks my-course        the lessons as copies of your own; again later, it renews those not edited
+  railbridge copy-notebooks my-course        the lessons as copies of your own; done again, it
+                                             renews those that are not edited
   railbridge schema > case.schema.json       for editors that complete and check TOML files
 
 results (in the folder of --out; files of these names in it are replaced):
-  summary.json     extremes with time and place, static values, dynamic factors, envelope, reactions, wheels, car bodies
+  summary.json     extremes with time and place, static values, dynamic factors, envelope,
+                   reactions, wheels, car bodies
   points.csv       displacement, acceleration and section forces at output.points
   wheels.csv       lateral and vertical force of every wheel on the deck
   reactions.csv    forces of every bearing line on the deck
@@ -62,7 +65,8 @@ results (in the folder of --out; files of these names in it are replaced):
   The first column of every CSV file is t, in s; the names of the others end with their unit.
 
 exit codes:
-  0 done    1 out of memory or disk    2 bad case file or path    3 not converged (results are written)    130 interrupted
+  0 done    1 out of memory or disk    2 bad case file or path
+  3 not converged (results are written)    130 interrupted
 """
 
 
@@ -85,7 +89,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     except MemoryError:
         _say(
-            "out of memory: use a larger run.time_step, fewer cars, or a shorter run.lead_in or run.tail"
+            "out of memory: use a larger run.time_step, fewer cars, or a shorter run.lead_in "
+            "or run.tail"
         )
         return 1
     except OSError as error:
@@ -243,7 +248,8 @@ def _check(given: argparse.Namespace) -> int:
     seconds = (loaded.deck.length + loaded.train.length) / s.speed + s.tail
     wheels = len(loaded.train.wheels)
     print(
-        f"{given.case}: can be run; {wheels} wheels, {seconds:.3g} s in steps of {s.time_step:.3g} s, {needed / 1e9:.2g} GB"
+        f"{given.case}: can be run; {wheels} wheels, {seconds:.3g} s in steps of "
+        f"{s.time_step:.3g} s, {needed / 1e9:.2g} GB"
     )
     return 0
 
@@ -310,7 +316,8 @@ def _copy_notebooks(given: argparse.Namespace) -> int:
     print(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
     if count["kept"]:
         print(
-            "kept: changed since they were copied; --force replaces them and keeps yours beside under another name"
+            "kept: changed since they were copied; --force replaces them and keeps yours "
+            "beside under another name"
         )
     print(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
     return 0
@@ -322,8 +329,10 @@ def _reason(error: Exception) -> str:
 
 @contextmanager
 def _results(out: str) -> Iterator[Path]:
-    """Give a temporary folder beside the results; what is in it becomes the results only if all
-    went well."""
+    """Give a temporary folder beside the results.
+
+    What is in it becomes the results only if all went well.
+    """
     folder = Path(out)
     with _staging(out, "--out") as (scratch, existed):
         yield scratch
@@ -342,8 +351,9 @@ def _results(out: str) -> Iterator[Path]:
 
 @contextmanager
 def _staging(out: str, field: str) -> Iterator[tuple[Path, bool]]:
-    """Give a temporary folder in or beside the one that is asked for, and whether that one exists;
-    nothing is left of it after.
+    """Give a temporary folder in or beside the one that is asked for, and whether that one exists.
+
+    Nothing is left of it afterwards.
 
     Raises
     ------
@@ -403,8 +413,10 @@ def _umask() -> int:
 
 
 class _Progress:
-    """One line on stderr that tells how far a long run is: overwritten in a terminal, once in ten
-    seconds elsewhere."""
+    """One line on stderr that tells how far a long run is.
+
+    Overwritten in a terminal, once in ten seconds elsewhere.
+    """
 
     def __init__(self, quiet: bool) -> None:
         self.quiet = quiet

@@ -1,5 +1,6 @@
-"""The notebooks as copies of one's own: what belongs to them, what may be renewed and what was
-edited and is left alone.
+"""The notebooks as copies of one's own.
+
+What belongs to them, what may be renewed and what was edited and is left alone.
 
 A copy is *edited* when its bytes differ from what was copied, which a small file in the folder
 (`MANIFEST`) records. JupyterLab writes outputs into a notebook, so a copy that was run and saved
@@ -55,15 +56,18 @@ class Copy:
 
 
 def suite_root() -> Path:
-    """Return the folder that holds ``notebooks`` and the pages: inside an installed wheel, or the
-    checkout."""
+    """Return the folder that holds ``notebooks`` and the pages.
+
+    Inside an installed wheel, or the checkout.
+    """
     packaged = Path(__file__).parents[1] / "share"
     return packaged if packaged.is_dir() else Path(__file__).parents[3]
 
 
 def contents() -> dict[str, bytes]:
-    """Return every file that is copied, by its place in the folder: notebooks on top, then what
-    they lead to.
+    """Return every file that is copied, by its place in the folder.
+
+    Notebooks on top, then what they lead to.
 
     Links between them are made to fit the new places; links to what is not copied become plain
     text.
@@ -97,8 +101,7 @@ def _fitted(name: str, content: bytes, known: set[str]) -> bytes:
 
 
 def _with_links(was: str, text: str, now: str, known: set[str]) -> str:
-    """Mend the relative links of a page that moves from one place of the suite to another of the
-    folder."""
+    """Mend the relative links of a page that moves from the suite into the folder."""
 
     def mended(found: re.Match) -> str:
         label, target, anchor = found.groups(default="")
@@ -164,8 +167,10 @@ def plan(folder: Path, force: bool = False) -> list[Copy]:
 
 
 def stage(copies: list[Copy], folder: Path, scratch: Path) -> None:
-    """Write all that will be placed into a temporary folder, so that a full disk is met before
-    anything is replaced."""
+    """Write all that will be placed into a temporary folder.
+
+    A full disk is then met before anything is replaced.
+    """
     for copy in copies:
         if copy.action in ("copied", "updated", "replaced"):
             (scratch / copy.name).parent.mkdir(parents=True, exist_ok=True)
@@ -179,8 +184,10 @@ def stage(copies: list[Copy], folder: Path, scratch: Path) -> None:
 
 
 def place(copies: list[Copy], folder: Path, scratch: Path) -> None:
-    """Move what was staged into the folder, each file whole: edited copies to their new names
-    first, the record last."""
+    """Move what was staged into the folder, each file whole.
+
+    Edited copies to their new names first, the record last.
+    """
     names = [c.backup for c in copies if c.backup] + [
         c.name for c in copies if (scratch / c.name).exists()
     ]
@@ -201,7 +208,7 @@ def _refuse_own(folder: Path) -> None:
 
 
 def _recorded(folder: Path) -> dict[str, str]:
-    """Digest of every copy as it was made; without a readable record every copy counts as edited."""
+    """Digest of every copy as made; without a readable record every copy counts as edited."""
     try:
         record = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
     except (OSError, ValueError):

@@ -27,7 +27,8 @@ from .cars import CAR_PARAMETERS, two_bogie_car
 from .tabletypes import Table, checked
 
 __all__ = [
-    "box", "box_from_table", "car_parameters", "deck", "deck_from_table", "deck_of_case", "track_of_case",
+    "box", "box_from_table", "car_parameters", "deck", "deck_from_table", "deck_of_case",
+    "track_of_case",
     "train_of_case", "vehicle",
 ]  # fmt: skip
 

@@ -127,13 +127,16 @@ _EXAMPLES: dict[str, tuple[type[Table], dict[str, str]]] = {
     "output": (tables.OUTPUT, {"points": "[10.0]"}),
 }
 _NOTES = {
-    "deck": '# A deck of your own. Or: file = "viaduct36" for a shipped deck (railbridge list decks),\n'
+    "deck": '# A deck of your own. Or: file = "viaduct36" for a shipped deck (railbridge list '
+    "decks),\n"
     '# or file = "my_deck.toml" for a file beside this one.',
     "train": "# One vehicle several times. Or a mixed train, front to back, without vehicle:\n"
     '#   cars = ["power", { vehicle = "coach", count = 6 }, "power"]',
     "# train": "# Or bare axle loads instead of vehicles:",
-    "track": "# Leave [track] out for perfect rails. A list adds irregularities up; rails that differ:\n"
-    '# { left = { ... }, right = { ... } }; measured: { kind = "table", x = [ ... ], r = [ ... ] }.',
+    "track": "# Leave [track] out for perfect rails. A list adds irregularities up; rails that "
+    "differ:\n"
+    '# { left = { ... }, right = { ... } }; measured: { kind = "table", x = [ ... ], r = [ ... '
+    "] }.",
 }
 
 

@@ -16,8 +16,10 @@ __all__ = ["data_file", "data_names", "data_root", "read_parameters", "read_toml
 
 
 def data_root() -> Path:
-    """Return the folder of shipped data: that of RAILBRIDGE_DATA if set, inside an installed wheel,
-    or of the checkout."""
+    """Return the folder of shipped data.
+
+    That of RAILBRIDGE_DATA if set, inside an installed wheel, or of the checkout.
+    """
     if os.environ.get("RAILBRIDGE_DATA"):
         return Path(os.environ["RAILBRIDGE_DATA"])
     packaged = Path(__file__).parents[1] / "data"
@@ -25,8 +27,10 @@ def data_root() -> Path:
 
 
 def data_names(kind: str, *suffixes: str) -> list[str]:
-    """Return the names of the shipped data files of a kind (``vehicles``, ``decks``, ``cases``), of
-    any suffix if none given."""
+    """Return the names of the shipped files of a kind (``vehicles``, ``decks``, ``cases``).
+
+    Of any suffix if none is given.
+    """
     return sorted(
         {
             p.stem

@@ -23,7 +23,8 @@ from ..settings import STATIONS
 __all__ = ["QUANTITIES", "HistoryTable", "histories", "summarize", "to_json"]
 
 QUANTITIES = {
-    "displacement_z": "m", "displacement_y": "m", "rotation_x": "rad", "acceleration_z": "m/s2", "acceleration_y": "m/s2",
+    "displacement_z": "m", "displacement_y": "m", "rotation_x": "rad", "acceleration_z": "m/s2",
+    "acceleration_y": "m/s2",
     "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m", "shear_vertical": "N",
 }  # fmt: skip
 """What is told of every point, with units."""
@@ -73,8 +74,10 @@ def summarize(run: Crossing, points: Sequence[float]) -> dict[str, Any]:
         "changes": list(run.changes) if iterated else None,
         "deviation_percent": _deviations(run),
         "run": {
-            "speed": s.speed, "time_step": s.time_step, "samples": len(run.time), "duration": run.time[-1],
-            "lead_in": s.lead_in, "track_offset": s.track_offset, "loads": s.loads, "interaction": s.interaction,
+            "speed": s.speed, "time_step": s.time_step, "samples": len(run.time),
+            "duration": run.time[-1],
+            "lead_in": s.lead_in, "track_offset": s.track_offset, "loads": s.loads,
+            "interaction": s.interaction,
         },
         **_wheels(run),
         "points": [{"x": x, **_at_point(run, x)} for x in points],
@@ -279,7 +282,7 @@ def _entries(
 
 
 def _envelope(run: Crossing, name: str) -> dict[str, Any] | None:
-    """Return smallest and largest value along the deck with place and time, and at every station."""
+    """Smallest and largest value along the deck with place and time, and at every station."""
     found = run.envelope(name)
     if found is None:
         return None

@@ -165,7 +165,8 @@ def _is_pairs(value: Any) -> bool:
 
 _WHEELS = {
     "type": "array", "minItems": 1,
-    "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "integer", "minimum": 1}},
+    "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "integer",
+    "minimum": 1}},
 }  # fmt: skip
 NOTCH = table(
     "Notch",
@@ -318,7 +319,7 @@ class _Spans(Table):
 
     @property
     def all_spans(self) -> tuple[float, ...]:
-        """m."""
+        """M."""
         return self.spans if self.has("spans") else (self.length,)
 
 
@@ -504,10 +505,14 @@ CASE = table(
     output=key(OUTPUT, "What is told of it."),
 )
 TABLES = {
-    "deck": BEAM, "deck.file": SHIPPED, "deck.section": SECTION, "deck.bearing": BEARING, "deck.box": BOX, "box deck": BOX_DECK,
-    "box bearing": PADS, "deck.mesh": MESH, "deck.modes": MODES, "modal deck": MODAL_DECK, "deck.damping": RAYLEIGH,
-    "modal damping": MODAL, "train": OF_ONE_KIND, "mixed train": MIXED, "train.cars": SEVERAL, "bare train": BARE,
-    "train.notch": NOTCH, "track": TRACK, "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "none": LEVEL,
+    "deck": BEAM, "deck.file": SHIPPED, "deck.section": SECTION, "deck.bearing": BEARING,
+    "deck.box": BOX, "box deck": BOX_DECK,
+    "box bearing": PADS, "deck.mesh": MESH, "deck.modes": MODES, "modal deck": MODAL_DECK,
+    "deck.damping": RAYLEIGH,
+    "modal damping": MODAL, "train": OF_ONE_KIND, "mixed train": MIXED, "train.cars": SEVERAL,
+    "bare train": BARE,
+    "train.notch": NOTCH, "track": TRACK, "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED,
+    "none": LEVEL,
     "run": RUN, "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
 }  # fmt: skip
 """Every table by what the pages call it."""

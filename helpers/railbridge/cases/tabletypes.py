@@ -193,7 +193,7 @@ def switched(choose: Callable[[Any], str], kinds: Mapping[str, Any]) -> Any:
         Types by name.
     """
     tagged = tuple(Annotated[kind, Tag(_TAG + name)] for name, kind in kinds.items())
-    return Annotated[Union[tagged], Discriminator(lambda value: _TAG + choose(value))]
+    return Annotated[Union[tagged], Discriminator(lambda value: _TAG + choose(value))]  # noqa: UP007 - made from a tuple
 
 
 def by_key(value: Any, names: tuple[str, ...], otherwise: str) -> str:

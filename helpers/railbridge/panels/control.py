@@ -1,9 +1,9 @@
-"""Controls of a panel: what they change in a case, between which limits, and how they are shown."""
+"""Controls of a panel: what they change in a case, between which limits, and how they look."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import ipywidgets as widgets
@@ -12,9 +12,9 @@ from .. import errors
 from ..cases.definition import Case
 from ..errors import InputError
 
-__all__ = ["Control", "present", "put", "read"]
+__all__ = ["Control", "change_at", "for_case"]
 
-LABEL = "8.2em"  # room for the longest label: what does not fit is cut
+_LABEL_WIDTH = "8.2em"  # room for the longest label: what does not fit is cut
 
 
 @dataclass(frozen=True)
@@ -26,13 +26,16 @@ class Control:
     name : str
         As in `Panel.set`.
     label : str
-        As shown, with the unit shown.
+        As displayed, with the unit displayed.
     paths : tuple of str
-        Where its value goes in the case; a number as last part counts from 0 in a list. Empty: the value changes the view only.
+        Where its value goes in the case; a number as last part counts from 0 in a list. Empty: the
+        value changes the view only.
     low, high, step : float
         Range in SI units. Whole numbers make a whole-number slider.
     factor : float
-        From SI to the unit shown.
+        From SI to the unit displayed.
+    unit : str
+        SI unit.
     start : float or str, optional
         First value; default the case's.
     choices : tuple of str
@@ -56,6 +59,11 @@ class Control:
     aside: Callable[[Any], str] | None = None
     plays: bool = False
 
+    @property
+    def is_whole(self) -> bool:
+        """Whether it takes whole numbers."""
+        return isinstance(self.step, int)
+
     def check(self, value: Any) -> Any:
         """Return a value that is within the range, in SI units.
 
@@ -66,64 +74,79 @@ class Control:
         """
         if self.choices:
             return errors.choice(self.name, value, self.choices)
-        whole = isinstance(self.step, int)
-        if whole:
-            return errors.integer(self.name, value, least=self.low, most=self.high)
-        return errors.number(self.name, value, least=self.low, most=self.high, unit=self.unit, remedy="Panels take SI units")
+        limits = {"least": self.low, "most": self.high}
+        if self.is_whole:
+            return errors.integer(self.name, value, **limits)
+        remedy = "Panels take SI units"
+        return errors.number(self.name, value, **limits, unit=self.unit, remedy=remedy)
+
+    def first_value(self, case: Case) -> Any:
+        """Return the value that it starts from: its own, or the case's."""
+        value = self.start if self.start is not None else _value_at(case, self.paths[0])
+        return self.check(value)
 
     def widget(self, value: Any) -> widgets.Widget:
-        """Make the slider or list, showing a value given in SI units."""
+        """Make the slider or list, displaying a value given in SI units."""
         layout = widgets.Layout(flex="1 1 21em", min_width="0")
-        shared = {"description": self.label, "style": {"description_width": LABEL}, "layout": layout}
+        style = {"description_width": _LABEL_WIDTH}
+        options = {"description": self.label, "style": style, "layout": layout}
         if self.choices:
-            return widgets.Dropdown(options=self.choices, value=value, **shared)
-        whole = isinstance(self.step, int)
-        low, high, step, value = (v if whole else round(v * self.factor, 9) for v in (self.low, self.high, self.step, value))
-        readout = "d" if whole else ".1f" if step >= 0.1 else ".3f"
-        make = widgets.IntSlider if whole else widgets.FloatSlider
-        return make(value, min=low, max=high, step=step, readout_format=readout, **shared)
+            return widgets.Dropdown(options=self.choices, value=value, **options)
+        value, low, high, step = map(self.displayed_value, (value, self.low, self.high, self.step))
+        options |= {"min": low, "max": high, "step": step}
+        if self.is_whole:
+            return widgets.IntSlider(value, readout_format="d", **options)
+        return widgets.FloatSlider(value, readout_format=".1f" if step >= 0.1 else ".3f", **options)
 
     def player(self, slider: widgets.Widget) -> widgets.Widget:
         """Make the buttons that let a slider run by itself, in the browser."""
-        play = widgets.Play(slider.value, min=self.low, max=self.high, step=2 * self.step, interval=100, show_repeat=False,
-                            layout=widgets.Layout(flex="0 0 auto", width="5.5em"))  # fmt: skip
+        layout = widgets.Layout(flex="0 0 auto", width="5.5em")
+        options = {"min": self.low, "max": self.high, "step": 2 * self.step, "interval": 100}
+        play = widgets.Play(slider.value, show_repeat=False, layout=layout, **options)
         widgets.jslink((play, "value"), (slider, "value"))
         return play
 
-    def value(self, shown: Any) -> Any:
-        """Return the SI value of what the widget shows."""
-        return shown if self.choices or isinstance(self.step, int) else round(shown / self.factor, 12)
+    def si_value(self, displayed: Any) -> Any:
+        """Return the SI value of what the widget displays."""
+        if self.choices or self.is_whole:
+            return displayed
+        return round(displayed / self.factor, 12)
 
-    def shown(self, value: Any) -> Any:
-        """Return what the widget shows for an SI value."""
-        return value if self.choices or isinstance(self.step, int) else round(value * self.factor, 9)
+    def displayed_value(self, value: Any) -> Any:
+        """Return what the widget displays for an SI value."""
+        return value if self.choices or self.is_whole else round(value * self.factor, 9)
 
 
-def present(control: Control, case: Case) -> Control:
-    """Leave out the paths that the case does not have: a level rail has no wavelength."""
+def for_case(control: Control, case: Case) -> Control:
+    """Leave out the paths that the case does not have: a level rail has no wavelength.
+
+    Raises
+    ------
+    InputError
+        The case has none of them.
+    """
     if not control.paths:
         return control
-    paths = tuple(p for p in control.paths if _get(case, p) is not None)
+    paths = tuple(path for path in control.paths if _value_at(case, path) is not None)
     if not paths:
-        raise InputError(control.paths[0], None, f"is missing in the case, and the panel's {control.name} needs it", "Give it")
-    return Control(**{**control.__dict__, "paths": paths})
+        allowed = f"is missing in the case, and the panel's {control.name} needs it"
+        raise InputError(control.paths[0], None, allowed, "Give it")
+    return replace(control, paths=paths)
 
 
-def read(case: Case, control: Control) -> Any:
-    """Return a control's first value."""
-    return control.start if control.start is not None else _get(case, control.paths[0])
+def change_at(changes: dict[str, Any], case: Case, path: str, value: Any) -> None:
+    """Add a value to changes of a case.
 
-
-def _get(case: Case, path: str) -> Any:
-    parent, _, last = path.rpartition(".")
-    return case.get(parent)[int(last)] if last.isdigit() else case.get(path)
-
-
-def put(changes: dict[str, Any], case: Case, path: str, value: Any) -> None:
-    """Add a value to changes of a case; a number as last part of the path counts in a list of the case's."""
+    A number as last part of the path counts in a list of the case's.
+    """
     parent, _, last = path.rpartition(".")
     if last.isdigit():
         values = changes.setdefault(parent, list(case.get(parent)))
         values[int(last)] = value
     else:
         changes[path] = value
+
+
+def _value_at(case: Case, path: str) -> Any:
+    parent, _, last = path.rpartition(".")
+    return case.get(parent)[int(last)] if last.isdigit() else case.get(path)

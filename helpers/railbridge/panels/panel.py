@@ -1,8 +1,9 @@
 """The panel itself: controls, one picture that follows them, and the same in words.
 
-While a control is moved, a crossing is computed with a coarser time step, with as many iterations as the exact one; when the
-control has rested, the exact one is computed beside it, so that the next move need not wait. The panel says which it shows.
-Before that, the step that would go on as the last one did is computed ahead.
+While a control is moved, a crossing is computed with a coarser time step, with as many iterations
+as the exact one; when the control has rested, the exact one is computed beside it, so that the next
+move need not wait. The panel says which it shows. Before that, the step that would go on as the
+last one did is computed ahead.
 """
 
 from __future__ import annotations
@@ -22,22 +23,24 @@ from matplotlib.figure import Figure
 from .. import errors
 from ..cases.definition import Case
 from ..errors import InputError
-from ..plots.drawing import WIDTH, hold, live
+from ..plots.drawing import FIGURE_WIDTH, keep_limits, reuse_artists
 from ..plots.picture import Picture
 from ..settings import default_time_step
-from .control import Control, present, put, read
+from .control import Control, change_at, for_case
 
-__all__ = ["FALLBACK", "Panel"]
+__all__ = ["DPI", "FALLBACK", "Panel"]
 
-FALLBACK = "Interactive panel: open this notebook in JupyterLab and run this cell to move its sliders."
+FALLBACK = (
+    "Interactive panel: open this notebook in JupyterLab and run this cell to move its sliders."
+)
 DPI = 100
 REST = 0.3  # s without a move, after which the exact crossing is computed
 ROUGH_STEP = 8e-3  # s, at most, while a control is moved
 PAUSE = 0.02  # s after a move, in which its picture leaves; then the next one is computed ahead
-KEPT = 3  # results: the coarse one, that of the next step, and the exact one, which may hold 50 MB
+RESULTS_KEPT = 3  # the coarse one, that of the next step, and the exact one, which may hold 50 MB
 
 Draw = Callable[[Mapping[str, Any], Case, Any, Mapping[str, Any]], None]
-Go = Callable[[str], None]
+Progress = Callable[[str], None]
 
 
 class _StaleError(Exception):
@@ -55,20 +58,23 @@ class Panel:
     axes : list
         Layout of the picture, as for ``Figure.subplot_mosaic``.
     draw : callable
-        ``draw(axes, case, result, values)`` draws or, in a live figure, moves the curves.
+        ``draw(axes, case, result, values)`` draws or, in a figure that reuses its artists, moves
+        the curves.
     say : callable
         ``say(case, result, values)`` returns the picture in one line.
     compute : callable
-        ``compute(case, progress)`` returns the result of a case; pure, kept for the controls' last values. It calls
-        `progress` now and then, which raises where the result is no longer wanted.
+        ``compute(case, progress)`` returns the result of a case; pure, kept for the controls' last
+        values. It calls `progress` now and then, which raises where the result is no longer wanted.
     code : str
-        Last line of *Show this as code*, formatted with the values: the number that the summary gives.
+        Last line of *Show this as code*, formatted with the values: the number that the summary
+        gives.
     size : (float, float)
         Inches.
     heights : sequence of float, optional
         Relative heights of the rows.
     rough : bool
-        Whether the result is a crossing, so that a coarser time step serves while a control is moved.
+        Whether the result is a crossing, so that a coarser time step serves while a control is
+        moved.
     dpi : float
         Dots per inch of the picture; more for a projector.
 
@@ -86,87 +92,113 @@ class Panel:
         draw: Draw,
         say: Callable[[Case, Any, Mapping[str, Any]], str],
         *,
-        compute: Callable[[Case, Go | None], Any] = Case.run,
+        compute: Callable[[Case, Progress | None], Any] = Case.run,
         code: str = "",
-        size: tuple[float, float] = (WIDTH, 4.6),
+        size: tuple[float, float] = (FIGURE_WIDTH, 4.6),
         heights: Sequence[float] | None = None,
         rough: bool = False,
         dpi: float = DPI,
     ) -> None:
-        self.controls = {c.name: present(c, case) for c in controls}
-        self.start = {c.name: c.check(read(case, c)) for c in self.controls.values()}
+        self.controls = {c.name: for_case(c, case) for c in controls}
+        self.start = {c.name: c.first_value(case) for c in self.controls.values()}
         self.error: Exception | None = None
         self.summary = ""
         self.case = self._base = case
-        self._draw, self._say, self._compute, self._line, self._rough = draw, say, compute, code, rough
+        self._draw, self._say, self._compute = draw, say, compute
+        self._code_line, self._rough = code, rough
         self._results: OrderedDict[tuple, tuple[Case, Any]] = OrderedDict()
         self._moves = 0
-        self._later: list[asyncio.TimerHandle] = []
-        self._held = self._called = self._coarse = False
-        self._home = _running_loop(), threading.get_ident()
+        self._timers: list[asyncio.TimerHandle] = []
+        self._ignores_sliders = self._will_follow = self._shows_rough = False
+        self._made_in = _running_loop(), threading.get_ident()
         self.figure = Figure(figsize=size, dpi=dpi, layout="constrained")
         FigureCanvasAgg(self.figure)
         self._axes = self.figure.subplot_mosaic(axes, height_ratios=heights)
         self._picture = Picture(self.figure)
-        self._build()
+        self._build_widgets()
         values = self.values
         self._draw(self._axes, *self._solve(values), values)
-        live(self.figure)
+        reuse_artists(self.figure)
         self._show()
-        self._at = values
+        self._last_values = values
 
-    def _build(self) -> None:
+    # ---- widgets
+
+    def _build_widgets(self) -> None:
         self.sliders = {n: c.widget(self.start[n]) for n, c in self.controls.items()}
-        beside = widgets.Layout(flex="0 0 auto", margin="0 0 0 2px")
-        self._asides = {n: widgets.Label(layout=beside) for n, c in self.controls.items() if c.aside}
         for slider in self.sliders.values():
-            slider.observe(lambda _: self._moved(), names="value")
-        # As a data URL: from a blob's URL, which the widget would make of plain bytes, a browser shows it 15 ms later.
+            slider.observe(lambda _: self._slider_moved(), names="value")
+        beside = widgets.Layout(flex="0 0 auto", margin="0 0 0 2px")
+        self._asides = {
+            n: widgets.Label(layout=beside) for n, c in self.controls.items() if c.aside
+        }
+        # As a data URL: from a blob's URL, which the widget would make of plain bytes, a browser
+        # shows it 15 ms later.
         self.image = widgets.Image(format="url", layout=widgets.Layout(width="100%"))
-        self.image.add_class("rb-picture")
         self.words, self.trouble = widgets.HTML(), widgets.HTML()
-        self.words.add_class("rb-summary")
-        self.trouble.add_class("rb-error")
-        natural = widgets.Layout(width="auto")
-        self.paper_button = widgets.Button(
-            description="Paper case", layout=natural, tooltip="All controls back to where they started"
+        tooltip = "All controls back to where they started"
+        self.paper_button = _button("Paper case", tooltip)
+        self.paper_button.on_click(lambda _: self._move(self.start, self._slider_moved))
+        tooltip = "Python lines that compute this very case"
+        self.code_button = _button("Show this as code", tooltip)
+        self.code_button.on_click(lambda _: self._show_or_hide_code())
+        layout = widgets.Layout(width="100%", max_width="900px", display="none")
+        self.code_area = widgets.Textarea(rows=14, layout=layout)
+        self.widget = self._arranged()
+        for widget, name in (
+            (self.image, "picture"),
+            (self.words, "summary"),
+            (self.trouble, "error"),
+            (self.widget, "panel"),
+        ):
+            widget.add_class(f"rb-{name}")
+
+    def _arranged(self) -> widgets.Widget:
+        """Return everything in its place: controls beside the picture or, if narrow, above it."""
+        row = widgets.Layout(
+            flex="1 1 28em", max_width="40em", flex_flow="row wrap", align_items="center"
         )
-        self.paper_button.on_click(lambda _: self._put(self.start, self._moved))
-        self.code_button = widgets.Button(
-            description="Show this as code", layout=natural, tooltip="Python lines that compute this very case"
+        rows = [widgets.HBox(self._row(name), layout=row) for name in self.controls]
+        wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="0 1em")
+        controls = widgets.HBox(rows, layout=wrapped)
+        wrapped = widgets.Layout(flex_flow="row wrap")
+        buttons = widgets.HBox([self.paper_button, self.code_button], layout=wrapped)
+        side_layout = widgets.Layout(flex="1 1 24em", min_width="0")
+        side = widgets.VBox([controls, buttons], layout=side_layout)
+        width = self.figure.get_figwidth() * DPI
+        main_layout = widgets.Layout(
+            flex=f"6 1 {0.82 * width:.0f}px", min_width="0", max_width=f"{width:.0f}px"
         )
-        self.code_button.on_click(lambda _: self._show_code())
-        self.code_area = widgets.Textarea(rows=14, layout=widgets.Layout(width="100%", max_width="900px", display="none"))
-        wide = self.figure.get_figwidth() * DPI
-        row = widgets.Layout(flex="1 1 28em", max_width="40em", flex_flow="row wrap", align_items="center")
-        rows = [widgets.HBox([self.sliders[n], *self._beside(n)], layout=row) for n in self.controls]
-        controls = widgets.HBox(rows, layout=widgets.Layout(flex_flow="row wrap", grid_gap="0 1em"))
-        buttons = widgets.HBox([self.paper_button, self.code_button], layout=widgets.Layout(flex_flow="row wrap"))
-        # Beside the picture where there is room, above it where there is not.
-        side = widgets.VBox([controls, buttons], layout=widgets.Layout(flex="1 1 24em", min_width="0"))
-        main = widgets.VBox(
-            [self.image, self.words, self.trouble],
-            layout=widgets.Layout(flex=f"6 1 {0.82 * wide:.0f}px", min_width="0", max_width=f"{wide:.0f}px"),
-        )
+        main = widgets.VBox([self.image, self.words, self.trouble], layout=main_layout)
         side.add_class("rb-side")
         main.add_class("rb-main")
-        body = widgets.HBox([side, main], layout=widgets.Layout(flex_flow="row wrap", grid_gap="4px 1em"))
-        self.widget = widgets.VBox([body, self.code_area])
-        self.widget.add_class("rb-panel")
+        wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="4px 1em")
+        return widgets.VBox([widgets.HBox([side, main], layout=wrapped), self.code_area])
 
-    def _beside(self, name: str) -> list[widgets.Widget]:
-        beside = [self._asides[name]] if name in self._asides else []
-        return beside + ([self.controls[name].player(self.sliders[name])] if self.controls[name].plays else [])
+    def _row(self, name: str) -> list[widgets.Widget]:
+        """Return a control and what stands beside it."""
+        control, slider = self.controls[name], self.sliders[name]
+        row = [slider]
+        if name in self._asides:
+            row.append(self._asides[name])
+        if control.plays:
+            row.append(control.player(slider))
+        return row
+
+    # ---- what users ask
 
     @property
     def values(self) -> dict[str, Any]:
         """What the controls say, in SI units."""
-        return {n: c.value(self.sliders[n].value) for n, c in self.controls.items()}
+        return {n: c.si_value(self.sliders[n].value) for n, c in self.controls.items()}
 
     @property
     def code(self) -> str:
         """Python lines that compute the present case, and the number that the summary gives."""
-        return self.case.code() + (self._line.format(**self.values, x=self.case.points[0]) + "\n" if self._line else "")
+        code = self.case.code()
+        if self._code_line:
+            code += self._code_line.format(**self.values, x=self.case.points[0]) + "\n"
+        return code
 
     def set(self, **values: Any) -> Panel:
         """Move controls, as by hand: the picture and the summary follow, at once the exact ones.
@@ -184,11 +216,12 @@ class Panel:
         Raises
         ------
         InputError
-            An unknown control or a value out of range, before anything moves; or what the case says to the values.
+            An unknown control or a value out of range, before anything moves; or what the case says
+            to the values.
         """
         for name in values:
             errors.choice("control", name, self.controls)
-        self._put({n: self.controls[n].check(v) for n, v in values.items()}, self._show)
+        self._move({n: self.controls[n].check(v) for n, v in values.items()}, self._show)
         if self.error is not None:
             raise self.error
         return self
@@ -197,44 +230,56 @@ class Panel:
         """Put all controls back to where they started, as *Paper case* does."""
         return self.set(**self.start)
 
-    def _put(self, values: Mapping[str, Any], follow: Callable[[], None]) -> None:
+    # ---- following a hand
+
+    def _move(self, values: Mapping[str, Any], follow: Callable[[], None]) -> None:
         """Move several controls, and follow once."""
-        self._held = True
+        self._ignores_sliders = True
         try:
             for name, value in values.items():
-                self.sliders[name].value = self.controls[name].shown(value)
+                self.sliders[name].value = self.controls[name].displayed_value(value)
         finally:
-            self._held = False
+            self._ignores_sliders = False
         follow()
 
-    def _moved(self) -> None:
-        """Follow a hand where the panel was made: a front end may hand its messages to several threads, in any order."""
-        if self._held:
+    def _slider_moved(self) -> None:
+        """Follow where the panel was made.
+
+        A front end may hand its messages to several threads, in any order.
+        """
+        if self._ignores_sliders:
             return
-        loop, thread = self._home
+        loop, thread = self._made_in
         if loop is None or loop.is_closed() or threading.get_ident() == thread:
             self._follow()
-        elif not self._called:
-            self._called = True
+        elif not self._will_follow:
+            self._will_follow = True
             loop.call_soon_threadsafe(self._follow)
 
     def _follow(self) -> None:
-        """Show what the controls say now: roughly at once where that is quicker, exactly when they rest."""
-        self._called = False
+        """Show what the controls say now: roughly if that is quicker, and exactly at rest."""
+        self._will_follow = False
         loop, values = _running_loop(), self.values
-        before, self._at = self._at, values
+        before, self._last_values = self._last_values, values
         # Without a kernel whose messages have to be answered there is nobody to keep waiting.
         if loop is None or not self._rough or self._key(values) in self._results:
             return self._show()
         self._show(rough=True)
         if self.error is None:
-            self._later = [loop.call_later(REST, self._aside, loop, values, False)]
-            ahead = self._expected(before, values)
-            if ahead is not None:
-                self._later.append(loop.call_later(PAUSE, self._aside, loop, ahead, True))
+            exactly = self._compute_beside, loop, values, False
+            self._timers = [loop.call_later(REST, *exactly)]
+            following = self._expected_next(before, values)
+            if following is not None:
+                ahead = self._compute_beside, loop, following, True
+                self._timers.append(loop.call_later(PAUSE, *ahead))
 
-    def _expected(self, before: Mapping[str, Any], now: Mapping[str, Any]) -> dict[str, Any] | None:
-        """Return the values if the last step is followed by another like it; None where that cannot be said."""
+    def _expected_next(
+        self, before: Mapping[str, Any], now: Mapping[str, Any]
+    ) -> dict[str, Any] | None:
+        """Return the values if the last step is followed by another like it.
+
+        None where that cannot be said.
+        """
         moved = [self.controls[n] for n in now if now[n] != before[n]]
         if len(moved) != 1 or moved[0].choices or not moved[0].paths:
             return None
@@ -242,17 +287,19 @@ class Panel:
         value = round(2 * now[name] - before[name], 12)
         return {**now, name: value} if control.low <= value <= control.high else None
 
-    def _aside(self, loop: asyncio.AbstractEventLoop, values: dict[str, Any], rough: bool) -> None:
-        """Compute a result in a thread of its own; show the exact one if the controls still stand there."""
+    def _compute_beside(
+        self, loop: asyncio.AbstractEventLoop, values: dict[str, Any], rough: bool
+    ) -> None:
+        """Compute a result in a thread; show the exact one if the controls still stand there."""
         move = self._moves
 
-        def go_on(_: str = "") -> None:
+        def stop_if_stale(_: str = "") -> None:
             if move != self._moves:
                 raise _StaleError
 
         def work() -> None:
-            result = self._solve(values, rough, go_on)
-            go_on()
+            result = self._solve(values, rough, stop_if_stale)
+            stop_if_stale()
             self._say(*result, values)  # works out what the picture needs, which results keep
 
         def done(task: asyncio.Future) -> None:
@@ -262,69 +309,80 @@ class Panel:
 
         loop.run_in_executor(None, work).add_done_callback(done)
 
+    # ---- computing and showing
+
     def _key(self, values: Mapping[str, Any], rough: bool = False) -> tuple:
         return (rough, *(values[n] for n, c in self.controls.items() if c.paths))
 
-    def _solve(self, values: Mapping[str, Any], rough: bool = False, progress: Go | None = None) -> tuple[Case, Any]:
-        """Return the case of some values and its result (that of a coarser one if rough), from those kept if it is there."""
+    def _solve(
+        self, values: Mapping[str, Any], rough: bool = False, progress: Progress | None = None
+    ) -> tuple[Case, Any]:
+        """Return the case of some values and its result (that of a coarser one if rough).
+
+        From the results kept if it is there.
+        """
         key = self._key(values, rough)
-        found = self._results.get(key)
-        if found is None:
+        solved = self._results.get(key)
+        if solved is None:
             changes: dict[str, Any] = {}
             for name, control in self.controls.items():
                 for path in control.paths:
-                    put(changes, self._base, path, values[name])
+                    change_at(changes, self._base, path, values[name])
             case = self._base.replace(changes)
-            solved = _coarser(case) if rough else case
-            self._results[key] = found = case, self._compute(solved, progress)
-            while len(self._results) > KEPT:
+            result = self._compute(_coarser(case) if rough else case, progress)
+            self._results[key] = solved = case, result
+            while len(self._results) > RESULTS_KEPT:
                 self._results.popitem(last=False)
-        return found
+        return solved
 
     def _show(self, rough: bool = False) -> None:
         """Compute, draw, say; an error is said instead, and the picture stays as it was."""
         self._moves += 1
-        for timer in self._later:
+        for timer in self._timers:
             timer.cancel()
-        self._later = []
+        self._timers = []
         values = self.values
         try:
             case, result = self._solve(values, rough)
-            hold(self.figure, rough)
+            keep_limits(self.figure, rough)
             self._draw(self._axes, case, result, values)
             summary = self._say(case, result, values)
         except (ValueError, RuntimeError, ArithmeticError) as error:
-            self.error = error
-            said = f"<b>Not possible:</b> {escape(str(error))} (The picture shows the last possible case.)"
-            self.trouble.value = f'<div role="alert" style="{_ALERT}">{said}</div>'
-            if self._coarse:  # nothing follows any more
-                self._write(False, f"Time step up to {_ms(ROUGH_STEP)}.")
-            self._tell_asides(values)
-            return
-        self.case, self.summary, self.error = case, summary, None
-        self.image.value = b"data:image/png;base64," + b64encode(self._picture.png())
-        note = ""
-        if self._rough:
-            exact = _ms(case.settings.time_step)
-            moving = f"<i>Moving: time step up to {_ms(ROUGH_STEP)}; {exact} follows.</i>"
-            note = moving if rough else f"Time step {exact}."
-        self._write(rough, note)
-        self.trouble.value = ""
-        self._tell_asides(values)
-        if self.code_area.layout.display != "none":
-            self.code_area.value = self.code
-
-    def _write(self, coarse: bool, note: str) -> None:
-        """Write the summary, to be read out where it stays."""
-        self._coarse = coarse
-        said = f"<span{'' if coarse else ' role=status'}>{escape(self.summary)}</span> {note}"
-        self.words.value = f'<div style="line-height:1.35">{said}</div>'
-
-    def _tell_asides(self, values: Mapping[str, Any]) -> None:
+            self._show_error(error)
+        else:
+            self.case, self.summary, self.error = case, summary, None
+            self._show_case(rough)
         for name, label in self._asides.items():
             label.value = self.controls[name].aside(values[name])
 
-    def _show_code(self) -> None:
+    def _show_case(self, rough: bool) -> None:
+        self.image.value = b"data:image/png;base64," + b64encode(self._picture.png())
+        note = ""
+        if self._rough:
+            exact = _ms(self.case.settings.time_step)
+            note = f"Time step {exact}."
+            if rough:
+                note = f"<i>Moving: time step up to {_ms(ROUGH_STEP)}; {exact} follows.</i>"
+        self._write_summary(rough, note)
+        self.trouble.value = ""
+        if self.code_area.layout.display != "none":
+            self.code_area.value = self.code
+
+    def _show_error(self, error: Exception) -> None:
+        self.error = error
+        words = "(The picture shows the last possible case.)"
+        words = f"<b>Not possible:</b> {escape(str(error))} {words}"
+        self.trouble.value = f'<div role="alert" style="{_ALERT}">{words}</div>'
+        if self._shows_rough:  # nothing follows any more
+            self._write_summary(False, f"Time step up to {_ms(ROUGH_STEP)}.")
+
+    def _write_summary(self, rough: bool, note: str) -> None:
+        """Write the summary, to be read out where it stays."""
+        self._shows_rough = rough
+        words = f"<span{'' if rough else ' role=status'}>{escape(self.summary)}</span> {note}"
+        self.words.value = f'<div style="line-height:1.35">{words}</div>'
+
+    def _show_or_hide_code(self) -> None:
         hidden = self.code_area.layout.display == "none"
         self.code_area.value = self.code
         self.code_area.layout.display = "flex" if hidden else "none"
@@ -337,7 +395,16 @@ class Panel:
 
 
 # Readable on light and dark pages.
-_ALERT = "line-height:1.35;background:#fdecea;color:#7a0c17;border-left:4px solid #b00020;padding:4px 10px"
+_ALERT = (
+    "line-height:1.35;background:#fdecea;color:#7a0c17;"
+    "border-left:4px solid #b00020;padding:4px 10px"
+)
+
+
+def _button(label: str, tooltip: str) -> widgets.Button:
+    """Make a button as wide as its label."""
+    layout = widgets.Layout(width="auto")
+    return widgets.Button(description=label, tooltip=tooltip, layout=layout)
 
 
 def _ms(seconds: float) -> str:
@@ -352,9 +419,10 @@ def _running_loop() -> asyncio.AbstractEventLoop | None:
 
 
 def _coarser(case: Case) -> Case:
-    """Return the case with the time step used while a control is moved; never finer than its own."""
+    """Return the case with the time step used while a control moves; never finer than its own."""
     speed = case.settings.speed
-    step = min(default_time_step(case.train, case.track, speed, ROUGH_STEP), case.deck.length / 20 / speed)
+    step = default_time_step(case.train, case.track, speed, ROUGH_STEP)
+    step = min(step, case.deck.length / 20 / speed)
     if step <= case.settings.time_step:
         return case
     try:

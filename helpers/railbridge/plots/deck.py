@@ -10,15 +10,30 @@ from matplotlib.axes import Axes
 from .. import errors
 from ..decks import Deck, rayleigh_ratio
 from ..errors import InputError
-from .drawing import ALONG, GREY, curve, finish, grid, is_live, log_frequencies, look, note, one, rung
+from .drawing import (
+    PLACE_LABEL,
+    axes_or_new,
+    curve,
+    label_axes,
+    log_frequencies,
+    note,
+    numbers_up_to,
+    reuses_artists,
+    round_up,
+    small_multiples,
+)
+from .style import GREY, style_of
+
+__all__ = ["damping", "deck_mode", "deck_modes", "influence_line"]
 
 
 def deck_mode(deck: Deck, mode: int, ax: Axes | None = None) -> Axes:
-    """Plot a mode shape of the deck along its axis: lateral, vertical and twist, each against the largest, with bearings.
+    """Plot a mode shape of the deck along its axis, with its bearings.
 
-    Twist is shown as the vertical motion at the deck's edge (1 m off the axis if the width is not known). Modes count from 1.
+    Lateral, vertical and twist, each against the largest. Twist is shown as the vertical motion at
+    the deck's edge (1 m off the axis if the width is not known). Modes count from 1.
     """
-    ax = one(ax, 2.2)
+    ax = axes_or_new(ax, 2.2)
     i = errors.integer("mode", mode, least=1, most=len(deck.mode_names)) - 1
     x = np.linspace(0.0, deck.length, 301)
     shape = deck.shapes(x)[:, i] * [1.0, 1.0, deck.width / 2 if deck.width else 1.0]
@@ -26,77 +41,98 @@ def deck_mode(deck: Deck, mode: int, ax: Axes | None = None) -> Axes:
     names = ("displacement_y", "displacement_z", "rotation_x")
     words = ("lateral", "vertical", "twist" if not deck.width else "twist, at the edge")
     curve(ax, "axis", [0.0, deck.length], [0.0, 0.0], color=GREY, lw=0.8)
-    for c, (name, word) in enumerate(zip(names, words, strict=True)):
-        style = look(name)
-        moves = np.abs(shape[:, c]).max() > 1e-3
-        label = word if moves else None
-        curve(ax, name, x, shape[:, c] if moves else np.full_like(x, np.nan), label=label, color=style.colour, ls=style.line)
-    curve(ax, "bearings", deck.supports, np.zeros(len(deck.supports)), color="k", ls="", marker="^", ms=7, clip_on=False)
-    title = f"mode {mode}: {deck.mode_names[i]}, {deck.frequencies_hz[i]:.4g} Hz, damping {100 * deck.damping_ratios[i]:.1f} %"
-    finish(ax, ALONG, "shape (-)", title)
+    for own, name, word in zip(shape.T, names, words, strict=True):
+        style = style_of(name)
+        moves = np.abs(own).max() > 1e-3
+        line = {"label": word if moves else None, "color": style.colour, "ls": style.line}
+        curve(ax, name, x, own if moves else np.full_like(x, np.nan), **line)
+    _draw_bearings(ax, deck)
+    frequency, ratio = deck.frequencies_hz[i], 100 * deck.damping_ratios[i]
+    title = f"mode {mode}: {deck.mode_names[i]}, {frequency:.4g} Hz, damping {ratio:.1f} %"
+    label_axes(ax, PLACE_LABEL, "shape (-)", title)
     ax.set_ylim(-1.15, 1.15)
     return ax
 
 
-def deck_modes(deck: Deck, modes: Iterable[int] = range(1, 7), axes: Sequence[Axes] | None = None) -> np.ndarray:
+def deck_modes(
+    deck: Deck, modes: Iterable[int] = range(1, 7), axes: Sequence[Axes] | None = None
+) -> np.ndarray:
     """Plot several mode shapes of the deck as small multiples; see `deck_mode`."""
-    which = [m for m in modes if m <= len(deck.mode_names)]
-    columns = min(2, len(which))
-    rows = -(-len(which) // columns)
-    axes = grid(axes, rows, columns, 0.4 + 1.75 * rows, sharex=True, sharey=True)
-    for ax, m in zip(axes, which, strict=False):
-        deck_mode(deck, m, ax)
+    modes = numbers_up_to("modes", modes, 1, len(deck.mode_names))
+    axes = small_multiples(axes, len(modes), 2, 0.4, 1.75, sharex=True, sharey=True)
+    handles = {}
+    for ax, mode in zip(axes, modes, strict=True):
+        deck_mode(deck, mode, ax)
         if ax.get_legend() is not None:
             ax.get_legend().remove()
-        f, ratio = deck.frequencies_hz[m - 1], 100 * deck.damping_ratios[m - 1]
-        ax.set_title(f"{m}: {deck.mode_names[m - 1]}, {f:.4g} Hz, {ratio:.1f} %", loc="left", fontsize="medium")
+        frequency, ratio = deck.frequencies_hz[mode - 1], 100 * deck.damping_ratios[mode - 1]
+        title = f"{mode}: {deck.mode_names[mode - 1]}, {frequency:.4g} Hz, {ratio:.1f} %"
+        ax.set_title(title, loc="left", fontsize="medium")
         ax.label_outer()
-    for ax in axes[len(which) :]:
-        ax.set_axis_off()
-    handles = {label: h for ax in axes for h, label in zip(*ax.get_legend_handles_labels(), strict=True)}
-    handles = {label: h for label, h in handles.items() if not label.startswith("_")}
-    axes[0].figure.legend(handles.values(), handles.keys(), loc="outside upper right", ncols=3, frameon=False, fontsize="small")
-    return axes[: len(which)]
+        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
+            if not label.startswith("_"):
+                handles[label] = handle
+    place = {"loc": "outside upper right", "ncols": 3, "frameon": False, "fontsize": "small"}
+    axes[0].figure.legend(handles.values(), handles.keys(), **place)
+    return axes
 
 
-def damping(alpha: float, beta: float, marks: Mapping[str, float] | None = None, ax: Axes | None = None) -> Axes:
-    """Plot Rayleigh damping over frequency with its two parts; `marks` names frequencies (Hz) to point out.
+def damping(
+    alpha: float, beta: float, marks: Mapping[str, float] | None = None, ax: Axes | None = None
+) -> Axes:
+    """Plot Rayleigh damping over frequency with its two parts.
 
     Parameters
     ----------
     alpha, beta : float
         1/s and s; see `railbridge.rayleigh`.
+    marks : mapping of float, optional
+        Frequencies to point out, Hz, by name.
+    ax : Axes, optional
     """
-    ax = one(ax, 3.4)
-    places = list((marks or {}).values())
-    low, high = min([0.5, *places]) * 0.9, max([60.0, *places]) * 1.1
-    f = np.geomspace(*((1 / rung(1 / low), rung(high)) if is_live(ax) else (low, high)), 300)
-    style = look("damping")
-    total = style.factor * rayleigh_ratio(alpha, beta, f)
-    curve(ax, "mass", f, style.factor * rayleigh_ratio(alpha, 0.0, f), label="mass part", color=GREY, ls="--")
-    curve(ax, "stiffness", f, style.factor * rayleigh_ratio(0.0, beta, f), label="stiffness part", color=GREY, ls="-.")
-    curve(ax, "total", f, total, label="damping ratio", color=style.colour, lw=2.0)
-    values = style.factor * rayleigh_ratio(alpha, beta, np.array(places)) if places else np.array([])
+    ax = axes_or_new(ax, 3.4)
+    marks = dict(marks or {})
+    low, high = min([0.5, *marks.values()]) * 0.9, max([60.0, *marks.values()]) * 1.1
+    if reuses_artists(ax):
+        low, high = 1 / round_up(1 / low), round_up(high)
+    f = np.geomspace(low, high, 300)
+    style = style_of("damping")
+    for name, label, parts, line in (
+        ("mass", "mass part", (alpha, 0.0), {"color": GREY, "ls": "--"}),
+        ("stiffness", "stiffness part", (0.0, beta), {"color": GREY, "ls": "-."}),
+        ("total", "damping ratio", (alpha, beta), {"color": style.colour, "lw": 2.0}),
+    ):
+        curve(ax, name, f, style.factor * rayleigh_ratio(*parts, f), label=label, **line)
+    places = np.array(list(marks.values()))
+    values = style.factor * rayleigh_ratio(alpha, beta, places)
     curve(ax, "points", places, values, color="k", ls="", marker="o", ms=4.5, zorder=3)
     log_frequencies(ax)
     most = 1.9 * max([5.0, *values])
-    most = rung(most) if is_live(ax) else most
-    above = 0.0
-    for place, value, name in sorted(zip(places, values, marks or {}, strict=True)):
-        close = place < 1.12 * above
-        above = above if close else place
-        clear = {"bbox": {"fc": "white", "ec": "none", "pad": 0.8, "alpha": 0.85}}
-        options = clear if close else {"rotation": 65, "rotation_mode": "anchor", "va": "center"}
-        height = value / most + (-0.05 if close else 0.04)
-        text = f"{'  ' if close else ''}{name}, {place:.4g} Hz"
-        note(ax, f"mark {name}", text, place, height, data_x=True, **options)
-    finish(ax, "frequency (Hz)", style.label)
+    most = round_up(most) if reuses_artists(ax) else most
+    _name_points(
+        ax, {name: (f, v / most) for (name, f), v in zip(marks.items(), values, strict=True)}
+    )
+    label_axes(ax, "frequency (Hz)", style.label)
     ax.set(xlim=(f[0], f[-1]), ylim=(0.0, most))
     return ax
 
 
+def _name_points(ax: Axes, points: Mapping[str, tuple[float, float]]) -> None:
+    """Write names of points (Hz, height of the axes) upwards, or beside where they are close."""
+    above = {"rotation": 65, "rotation_mode": "anchor", "va": "center"}
+    beside = {"bbox": {"fc": "white", "ec": "none", "pad": 0.8, "alpha": 0.85}}
+    last = 0.0
+    for frequency, height, name in sorted((f, h, name) for name, (f, h) in points.items()):
+        text = f"{name}, {frequency:.4g} Hz"
+        if frequency < 1.12 * last:
+            note(ax, f"name {name}", f"  {text}", frequency, height - 0.05, data_x=True, **beside)
+        else:
+            note(ax, f"name {name}", text, frequency, height + 0.04, data_x=True, **above)
+            last = frequency
+
+
 def influence_line(deck: Deck, quantity: str, x: float, ax: Axes | None = None) -> Axes:
-    """Plot an influence line: the output at x (m) against the place of a unit load of its own direction.
+    """Plot an influence line: the output at x against the place of a unit load of its direction.
 
     Parameters
     ----------
@@ -106,24 +142,47 @@ def influence_line(deck: Deck, quantity: str, x: float, ax: Axes | None = None) 
     x : float
         m.
     ax : Axes, optional
+
+    Raises
+    ------
+    InputError
+        A quantity that the deck cannot recover.
     """
-    if deck.recovery is None:
-        raise InputError("deck", deck.name, "only its modes are known, so it has no influence lines")
-    ax = one(ax)
     reaction = quantity in ("force_y", "force_z", "moment_x")
     line = deck.recovery.reaction(quantity, x) if reaction else deck.recovery.section(quantity, x)
+    if line is None and deck.recovery.lacks:
+        raise InputError("deck", deck.name, deck.recovery.lacks)
     if line is None:
         raise InputError("quantity", quantity, "the deck has no such stiffness or bearing there")
-    load = "z" if quantity.endswith(("_z", "vertical")) else "roll" if quantity.endswith(("_x", "torsion")) else "y"
-    along = np.unique(np.concatenate([np.linspace(0.0, deck.length, 601), [max(x - 1e-6, 0.0), min(x + 1e-6, deck.length)]]))
+    ax = axes_or_new(ax)
+    load = "y"
+    if quantity.endswith(("_z", "vertical")):
+        load = "z"
+    elif quantity.endswith(("_x", "torsion")):
+        load = "roll"
+    jump = [max(x - 1e-6, 0.0), min(x + 1e-6, deck.length)]
+    along = np.unique(np.concatenate([np.linspace(0.0, deck.length, 601), jump]))
     values = line.influence(along)[:, 0, ("y", "z", "roll").index(load)]
-    style = look(quantity.replace("force", "reaction").replace("moment_x", "reaction_x") if reaction else quantity)
-    unit_load = "MN m" if load == "roll" else "MN"
-    unit = {"mm": (f"mm per {unit_load}", 1e9), "mrad": (f"mrad per {unit_load}", 1e9), "kN": ("-", 1.0)}.get(
-        style.unit, ("-", 1.0) if load == "roll" else ("m", 1.0)
-    )
+    style = style_of(f"reaction_{quantity[-1]}" if reaction else quantity)
+    unit, factor = _influence_unit(style.unit, load)
     curve(ax, "axis", [0.0, deck.length], [0.0, 0.0], color=GREY, lw=0.8)
-    curve(ax, "line", along, unit[1] * values, label=f"{style.words} at x = {x:g} m", color=style.colour, ls=style.line)
-    curve(ax, "bearings", deck.supports, np.zeros(len(deck.supports)), color="k", ls="", marker="^", ms=7, clip_on=False)
-    ways = {"y": "lateral", "z": "upward", "roll": "roll"}
-    return finish(ax, "place of the load, x (m)", f"per unit {ways[load]} load ({unit[0]})")
+    options = {"label": f"{style.words} at x = {x:g} m", "color": style.colour, "ls": style.line}
+    curve(ax, "line", along, factor * values, **options)
+    _draw_bearings(ax, deck)
+    way = {"y": "lateral", "z": "upward", "roll": "roll"}[load]
+    return label_axes(ax, "place of the load, x (m)", f"per unit {way} load ({unit})")
+
+
+def _influence_unit(unit: str, load: str) -> tuple[str, float]:
+    """Return the unit of an influence line as drawn, and the factor from SI to it."""
+    unit_load = "MN m" if load == "roll" else "MN"
+    if unit in ("mm", "mrad"):
+        return f"{unit} per {unit_load}", 1e9
+    return ("-" if unit == "kN" or load == "roll" else "m"), 1.0
+
+
+def _draw_bearings(ax: Axes, deck: Deck) -> None:
+    """Draw the bearing lines on the deck's axis."""
+    zeros = np.zeros(len(deck.supports))
+    triangle = {"color": "k", "ls": "", "marker": "^", "ms": 7, "clip_on": False}
+    curve(ax, "bearings", deck.supports, zeros, **triangle)

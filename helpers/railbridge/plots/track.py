@@ -13,8 +13,22 @@ from ..errors import InputError
 from ..tracks import FadeIn, Notch, Track
 from ..trains import AxleTrain, Train
 from ..vehicles import Vehicle
-from .drawing import ALONG, COMPARED, TIME, curve, finish, in_words, is_live, log_frequencies, look, note, one, rung, shade
-from .style import second
+from .drawing import (
+    PLACE_LABEL,
+    TIME_LABEL,
+    axes_or_new,
+    curve,
+    label_axes,
+    log_frequencies,
+    note,
+    quantity_curve,
+    reuses_artists,
+    round_up,
+    shade,
+)
+from .style import RUN_COLOURS, mode_in_words, other_shade, style_of
+
+__all__ = ["frequencies", "irregularity", "notch", "slope", "wheel_paths", "wheels_on_track"]
 
 
 def irregularity(
@@ -26,7 +40,9 @@ def irregularity(
     deck: Deck | float | None = None,
     _quantity: str = "irregularity",
 ) -> Axes:
-    """Plot vertical and lateral irregularity along the track, left and right rail apart where they differ.
+    """Plot vertical and lateral irregularity along the track.
+
+    Left and right rail apart where they differ.
 
     Parameters
     ----------
@@ -43,26 +59,27 @@ def irregularity(
     -------
     Axes
     """
-    ax = one(ax)
+    ax = axes_or_new(ax)
+    if lead_in is not None:
+        lead_in = errors.number("lead_in", lead_in, least=0.0, unit="m")
     x = np.linspace(start, stop, 1201)
     if deck is not None:
         shade(ax, "deck", 0.0, getattr(deck, "length", deck), "deck")
     for direction in ("vertical", "lateral"):
-        values = {}
+        quantity, values = f"{_quantity}_{direction}", {}
         for side in ("left", "right"):
             rail = track.rail(direction, side)
-            rail = rail if lead_in is None else FadeIn(rail, errors.number("lead_in", lead_in, least=0.0, unit="m"))
+            rail = rail if lead_in is None else FadeIn(rail, lead_in)
             values[side] = rail.value(x) if _quantity == "irregularity" else rail.slope(x)
-        style = look(f"{_quantity}_{direction}")
-        same = np.array_equal(values["left"], values["right"])
-        for side, value in values.items():
-            if side == "right" and same:
-                continue
-            label = direction if same else f"{direction}, {side} rail"
-            colour = style.colour if side == "left" else second(style.colour)
-            curve(ax, label, x, style.factor * value, label=label, color=colour, ls=style.line)
+        alike = np.array_equal(values["left"], values["right"])
+        for side in ("left",) if alike else ("left", "right"):
+            label = direction if alike else f"{direction}, {side} rail"
+            line = {"name": label, "label": label}
+            if side == "right":
+                line["color"] = other_shade(style_of(quantity).colour)
+            quantity_curve(ax, quantity, x, values[side], **line)
     word = "irregularity r" if _quantity == "irregularity" else "slope dr/dx"
-    return finish(ax, ALONG, f"{word} ({look(f'{_quantity}_vertical').unit})")
+    return label_axes(ax, PLACE_LABEL, f"{word} ({style_of(quantity).unit})")
 
 
 def slope(
@@ -78,25 +95,33 @@ def slope(
 
 
 def notch(notch: Notch, start: float, stop: float, ax: Axes | None = None) -> Axes:
-    """Plot what a wheel's notch does over the wheel's own place, `start` to `stop` in m (Eq. 2 with its sign turned)."""
-    ax = one(ax, 2.4)
+    """Plot what a wheel's notch does over the wheel's own place (Eq. 2 with its sign turned).
+
+    From `start` to `stop`, m.
+    """
+    ax = axes_or_new(ax, 2.4)
     count = int(np.clip(40 * (stop - start) / notch.length, 2001, 400_001))
     x = np.linspace(start, stop, count)
-    style = look("irregularity_vertical")
-    curve(ax, "notch", x, style.factor * notch.value(x), color=style.colour, ls=style.line)
-    return finish(ax, "place of the wheel from the bridge entrance (m)", "r (mm)")
+    quantity_curve(ax, "irregularity_vertical", x, notch.value(x), name="notch")
+    return label_axes(ax, "place of the wheel from the bridge entrance (m)", "r (mm)")
 
 
-def wheels_on_track(train: Train | AxleTrain, track: Track, position: float = 18.0, ax: Axes | None = None) -> Axes:
-    """Mark where the left wheels stand on the vertical irregularity when the first axle is at `position` (m)."""
-    ax = one(ax)
+def wheels_on_track(
+    train: Train | AxleTrain, track: Track, position: float = 18.0, ax: Axes | None = None
+) -> Axes:
+    """Mark where the left wheels stand on the vertical irregularity.
+
+    The train's first axle is at `position`, m from the bridge entrance.
+    """
+    ax = axes_or_new(ax)
     low, high = sorted(ax.get_xlim()) if ax.lines else (-np.inf, np.inf)
-    style = look("force_z")
-    wheels = [w for w in train.wheels if w.side == "left" and low <= position - w.delay <= high]
-    x = position - np.array([w.delay for w in wheels])
-    r = look("irregularity_vertical").factor * track.rail("vertical", "left").value(x)
-    curve(ax, "wheels", x, r, label="wheels of the train", color=style.colour, ls="", marker="o", ms=6, zorder=4)
-    return finish(ax, ALONG, "irregularity r (mm)")
+    x = np.array([position - wheel.delay for wheel in train.wheels if wheel.side == "left"])
+    x = x[(low <= x) & (x <= high)]
+    r = track.rail("vertical", "left").value(x)
+    dots = {"color": style_of("force_z").colour, "ls": "", "marker": "o", "ms": 6, "zorder": 4}
+    line = {"name": "wheels", "label": "wheels of the train"}
+    quantity_curve(ax, "irregularity_vertical", x, r, **line, **dots)
+    return label_axes(ax, PLACE_LABEL, "irregularity r (mm)")
 
 
 def wheel_paths(
@@ -121,24 +146,29 @@ def wheel_paths(
         End of the time axis, s.
     ax : Axes, optional
     """
-    ax = one(ax)
-    time = np.linspace(0.0, stop, 801)
-    style = look("irregularity_vertical")
-    known = {(w.car, w.number): w for w in train.wheels}
-    for (car, number), colour in zip(wheels, (style.colour, *COMPARED), strict=False):
-        if (car, number) not in known:
-            raise InputError("wheels", (car, number), "no such (car, wheel) in this train", "Both are counted from 1")
+    known = {(wheel.car, wheel.number): wheel for wheel in train.wheels}
+    for pair in wheels:
+        if tuple(pair) not in known:
+            allowed = "no such (car, wheel) in this train"
+            raise InputError("wheels", pair, allowed, "Both are counted from 1")
+    ax = axes_or_new(ax)
+    time, own = np.linspace(0.0, stop, 801), style_of("irregularity_vertical").colour
+    for (car, number), colour in zip(wheels, (own, *RUN_COLOURS), strict=False):
         wheel = known[car, number]
         r = track.rail("vertical", wheel.side).value(speed * time - wheel.delay)
-        dashes = "-" if colour == style.colour else "--"
-        curve(ax, f"{car} {number}", time, style.factor * r, label=f"car {car}, wheel {number}", color=colour, ls=dashes)
-    return finish(ax, TIME, "r under the wheel (mm)")
+        line = {"color": colour, "ls": "-" if colour == own else "--"}
+        line |= {"name": f"{car} {number}", "label": f"car {car}, wheel {number}"}
+        quantity_curve(ax, "irregularity_vertical", time, r, **line)
+    return label_axes(ax, TIME_LABEL, "r under the wheel (mm)")
 
 
 def frequencies(
-    source: Vehicle | Deck, mark: Mapping[str, float] | None = None, ax: Axes | None = None, most: float | None = None
+    source: Vehicle | Deck,
+    mark: Mapping[str, float] | None = None,
+    ax: Axes | None = None,
+    most: float | None = None,
 ) -> Axes:
-    """Plot natural frequencies as ticks on a frequency axis, with marks such as a forcing frequency.
+    """Plot natural frequencies as ticks on an axis, with marks such as a forcing frequency.
 
     Parameters
     ----------
@@ -149,32 +179,43 @@ def frequencies(
     most : float, optional
         End of the axis, Hz.
     """
-    ax = one(ax, 2.4)
-    values, names = (source.frequencies_hz, source.mode_names) if isinstance(source, Deck) else _named_frequencies(source.modes())
+    ax, marks = axes_or_new(ax, 2.4), dict(mark or {})
+    values, names = _named_frequencies(source)
     most = most or 1.15 * float(values[-1])
+    below = values[values <= most]
+    heights = np.tile([0.0, 1.0, np.nan], len(below))
+    curve(ax, "natural", np.repeat(below, 3), heights, color=style_of("displacement_z").colour)
     groups: list[tuple[float, list[str]]] = []
     for f, name in zip(values, names, strict=True):
         if f <= most and groups and f < 1.06 * groups[-1][0]:
             groups[-1][1].append(name)
         elif f <= most:
             groups.append((f, [name]))
-    shown = values[values <= most]
-    style = look("displacement_z")
-    curve(ax, "natural", np.repeat(shown, 3), np.tile([0.0, 1.0, np.nan], len(shown)), color=style.colour)
+    upright = {"rotation": 90, "ha": "right", "size": 8.5, "color": "k"}
     for i, (f, near) in enumerate(groups):
         text = " \n".join(list(dict.fromkeys(near))[:2]) + " "
-        note(ax, f"name {i}", text, f, 0.96, data_x=True, rotation=90, ha="right", size=8.5, color="k")
-    force = look("force_z")
-    for name, f in (mark or {}).items():
-        curve(ax, f"mark {name}", [f, f], [0.0, 1.0], label=f"{name} {f:.4g} Hz", color=force.colour, lw=2.5)
-    low, high = 0.75 * min([float(values[0]), *(mark or {}).values()]), max([most, *(1.1 * f for f in (mark or {}).values())])
+        note(ax, f"name {i}", text, f, 0.96, data_x=True, **upright)
+    for name, f in marks.items():
+        line = {"color": style_of("force_z").colour, "lw": 2.5, "label": f"{name} {f:.4g} Hz"}
+        curve(ax, f"line at {name}", [f, f], [0.0, 1.0], **line)
+    low = 0.75 * min([float(values[0]), *marks.values()])
+    high = max([most, *(1.1 * f for f in marks.values())])
+    if reuses_artists(ax):
+        low, high = 1 / round_up(1 / low), round_up(high)
     log_frequencies(ax)
-    finish(ax, "frequency (Hz)")
-    ax.set(xlim=(1 / rung(1 / low), rung(high)) if is_live(ax) else (low, high), ylim=(0.0, 1.0), yticks=[])
+    label_axes(ax, "frequency (Hz)")
+    ax.set(xlim=(low, high), ylim=(0.0, 1.0), yticks=[])
     ax.spines["left"].set_visible(False)
     return ax
 
 
-def _named_frequencies(modes) -> tuple[np.ndarray, tuple[str, ...]]:
-    """Names without front and rear, which mix freely; y and z in words."""
-    return modes.frequencies_hz, tuple(in_words(" ".join(name.split()[-2:])) for name in modes.names)
+def _named_frequencies(source: Vehicle | Deck) -> tuple[np.ndarray, tuple[str, ...]]:
+    """Return natural frequencies, ascending, and their names.
+
+    Those of a vehicle in words, without front and rear, which mix freely.
+    """
+    if isinstance(source, Deck):
+        return source.frequencies_hz, source.mode_names
+    modes = source.modes()
+    names = (" ".join(name.split()[-2:]) for name in modes.names)
+    return modes.frequencies_hz, tuple(map(mode_in_words, names))

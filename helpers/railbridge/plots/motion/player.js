@@ -1,5 +1,3 @@
-// `D` is the data, `draw(f)` moves the drawing to frame f, which need not be whole, and returns what to
-// say about it.
 (() => {
 const D = __DATA__;
 for (const root of document.querySelectorAll('[data-animation="__KEY__"]')) {

@@ -1,32 +1,34 @@
-"""A moving picture in a page: a vector drawing, the numbers that move it, and a player of a few lines.
+"""A moving picture in a page: a vector drawing, the numbers that move it, and a short player.
 
-An `Animation` is a piece of HTML. It needs no program, no network and no server, is some tens of kilobytes, and starts paused.
-Where scripts are not run (an untrusted notebook, a page on a forge) its first picture stands still. With reduced motion asked
-for, the player steps instead of playing.
+An `Animation` is a piece of HTML. It needs no program, no network and no server, is some tens of
+kilobytes, and starts paused. Where scripts are not run (an untrusted notebook, a page on a forge)
+its first picture stands still. With reduced motion asked for, the player steps instead of playing.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-import re
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
 from html import escape
-from importlib import resources
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
 
 from ...errors import InputError
 
-__all__ = ["INK", "WIDE", "Animation", "Drawing", "attributes", "corners", "mark", "page", "rounded"]
+__all__ = [
+    "FEWEST", "INK", "MOST", "WIDTH", "Animation", "Drawing", "attributes", "element", "page",
+    "points_text", "rounded", "script",
+]  # fmt: skip
 
-WIDE = 900  # px, as the other figures
+WIDTH = 900  # px, as the other figures
 INK = "#222222"
-
+FEWEST, MOST = 4, 600
+"""Frames of an animation."""
 
 
 @dataclass(frozen=True)
@@ -63,8 +65,9 @@ class Animation:
         """
         if Path(path).suffix != ".html":
             raise InputError("path", str(path), "must end in .html")
-        head = f'<!doctype html>\n<html lang="en">\n<meta charset="utf-8">\n<title>{escape(self.title)}</title>\n'
-        Path(path).write_text(head + self.html + "\n</html>\n", encoding="utf-8")
+        head = f'<meta charset="utf-8">\n<title>{escape(self.title)}</title>\n'
+        text = f'<!doctype html>\n<html lang="en">\n{head}{self.html}\n</html>\n'
+        Path(path).write_text(text, encoding="utf-8")
 
 
 class Drawing:
@@ -75,58 +78,62 @@ class Drawing:
     height : float
         px.
     items : list of str
-        Its marks, the last on top.
+        Its elements, the last on top.
     """
 
     def __init__(self, height: float) -> None:
         self.height, self.items = height, []
 
     def add(self, name: str, **given) -> None:
-        """Add a mark by its SVG name and attributes."""
-        self.items.append(mark(name, **given))
+        """Add an element by its SVG name and attributes."""
+        self.items.append(element(name, **given))
 
     def write(self, x: float, y: float, text: str, anchor: str = "start", size: int = 12) -> None:
         """Add a line of text at x, y (px)."""
-        look = {"x": float(x), "y": float(y), "fill": INK, "font-size": size, "text-anchor": anchor}
-        self.items.append(f"<text {attributes(look)}>{escape(text)}</text>")
+        font = {"fill": INK, "font-size": size, "text-anchor": anchor}
+        place = {"x": float(x), "y": float(y)}
+        self.items.append(f"<text {attributes({**place, **font})}>{escape(text)}</text>")
 
     def svg(self) -> str:
         """Return the picture in ASCII, so that it survives ``atob``."""
-        head = (
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDE} {self.height:.0f}" width="{WIDE}" '
-            f'height="{self.height:.0f}" role="img" font-family="sans-serif" style="max-width:100%;height:auto;display:block">'
-            f'<rect width="{WIDE}" height="{self.height:.0f}" fill="white"/>'
+        text = (
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {self.height:.0f}" '
+            f'width="{WIDTH}" height="{self.height:.0f}" role="img" font-family="sans-serif" '
+            'style="max-width:100%;height:auto;display:block">'
+            f'<rect width="{WIDTH}" height="{self.height:.0f}" fill="white"/>'
+            f"{''.join(self.items)}</svg>"
         )
-        return (head + "".join(self.items) + "</svg>").encode("ascii", "xmlcharrefreplace").decode("ascii")
+        return text.encode("ascii", "xmlcharrefreplace").decode("ascii")
 
 
 def attributes(given: Mapping) -> str:
-    """Return the attributes of a mark as SVG has them, numbers with six digits."""
-    shown = {k: f"{v:.6g}" if isinstance(v, (float, np.floating)) else v for k, v in given.items()}
-    return " ".join(f'{k}="{escape(str(v))}"' for k, v in shown.items())
+    """Return the attributes of an element as SVG has them, numbers with six digits."""
+    texts = {
+        name: f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value)
+        for name, value in given.items()
+    }
+    return " ".join(f'{name}="{escape(text)}"' for name, text in texts.items())
 
 
-def mark(name: str, **given) -> str:
-    """Return a mark by its SVG name and attributes."""
+def element(name: str, **given) -> str:
+    """Return an element by its SVG name and attributes."""
     return f"<{name} {attributes(given)}/>"
 
 
-def corners(points: Iterable) -> str:
-    """Return the corners of a line, pairs of px."""
+def points_text(points: Iterable) -> str:
+    """Return the corners of a line, pairs of px, as SVG has them."""
     return " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
 
 
 def rounded(values: np.ndarray, digits: int = 1) -> list:
     """Return numbers for the page, with few digits."""
-    # Adding zero turns -0.0 into 0.0, so that what is stored does not hang on the sign of nothing.
+    # Adding zero turns -0.0 into 0.0: what is stored does not depend on the sign of nothing.
     return (np.round(np.asarray(values, dtype=float), digits) + 0.0).tolist()
 
 
-@cache
-def _script(name: str) -> str:
-    """Return a script that stands beside this file, without the comment on top."""
-    text = resources.files(__package__).joinpath(f"{name}.js").read_text(encoding="utf-8")
-    return "\n" + re.sub(r"\A(//.*\n)+", "", text)
+def script(name: str) -> str:
+    """Return the text of a ``.js`` file that stands beside this one."""
+    return files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
 def page(drawing: Drawing, title: str, words: str, data: dict, draw: str) -> str:
@@ -139,21 +146,30 @@ def page(drawing: Drawing, title: str, words: str, data: dict, draw: str) -> str
     title, words : str
         Name of the animation, and what it shows in full sentences.
     data : dict
-        What moves it: ``frames``, the first one shown (``start``), ``loop``, ``seconds`` a run, ``slider`` (its label), and what
-        `draw` needs.
+        What moves it: ``frames``, the first one shown (``start``), ``loop``, ``seconds`` a run,
+        ``slider`` (its label), and what `draw` needs. The scripts call it ``D``.
     draw : str
-        Name of the script beside this file that defines ``draw``; see ``player.js``.
+        A script that defines ``draw(f)``: it moves the drawing to frame f, which need not be whole,
+        and returns what to say about it. ``all(selector)`` gives it elements of the drawing.
     """
     svg = drawing.svg()
-    numbers = json.dumps(data, separators=(",", ":")).replace(".0,", ",").replace(".0]", "]").replace("<", "\\u003c")
+    numbers = json.dumps(data, separators=(",", ":")).replace(".0,", ",").replace(".0]", "]")
+    numbers = numbers.replace("<", "\\u003c")
     key = hashlib.sha256((svg + numbers).encode()).hexdigest()[:10]
-    script = _script("player").replace("__DRAW__", _script(draw)).replace("__KEY__", key).replace("__DATA__", numbers)
+    player = script("player.js").replace("__DRAW__", f"\n{draw}")
+    player = player.replace("__KEY__", key).replace("__DATA__", numbers)
     picture = b64encode(svg.encode("ascii")).decode("ascii")
-    box = f"max-width:{WIDE}px;background:#fff;color:{INK};font:13px/1.4 sans-serif;border:1px solid #ccc"
+    box = (
+        f"max-width:{WIDTH}px;background:#fff;color:{INK};"
+        "font:13px/1.4 sans-serif;border:1px solid #ccc"
+    )
     return (
-        f'<div data-animation="{key}" role="group" aria-label="Animation: {escape(title)}" style="{box}">\n'
-        f'<img alt="{escape(words)}" src="data:image/svg+xml;base64,{picture}" style="max-width:100%;display:block">\n'
+        f'<div data-animation="{key}" role="group" aria-label="Animation: {escape(title)}" '
+        f'style="{box}">\n'
+        f'<img alt="{escape(words)}" src="data:image/svg+xml;base64,{picture}" '
+        'style="max-width:100%;display:block">\n'
         f'<p style="margin:4px 10px 8px">{escape(words)}</p>\n'
-        '<p data-still style="margin:4px 10px 8px">A still picture: run this cell to play it.</p>\n'
-        f"<script>{script}</script>\n</div>"
+        '<p data-still style="margin:4px 10px 8px">'
+        "A still picture: run this cell to play it.</p>\n"
+        f"<script>\n{player}</script>\n</div>"
     )

@@ -1,4 +1,3 @@
-// Defines `draw` for `player.js`.
   const deck = all("[data-deck]"), train = all("[data-train]")[0], wheels = all("[data-wheel]"), bars = all("[data-bar]");
   const dot = all("[data-dot]")[0], n = D.deck[0].length;
   const draw = f => {

@@ -1,4 +1,3 @@
-// Defines `draw` for `player.js`.
   const parts = all("[data-part]");
   const draw = f => {
     const s = Math.sin(2 * Math.PI * f / D.frames), t = f / D.frames * D.period;

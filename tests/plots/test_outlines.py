@@ -1,0 +1,72 @@
+"""Outlines are where the vehicle and the train say their parts are."""
+
+import numpy as np
+import pytest
+
+import railbridge as rb
+from railbridge.plots.outlines import Heights, VehicleOutline, train_outline
+
+HEIGHTS = Heights(wheel=0.5, frame=1.0, floor=1.5, roof=4.0)
+
+
+@pytest.fixture(scope="module")
+def train():
+    return rb.Train(rb.vehicle("xia2000"), 2, 22.5)
+
+
+@pytest.fixture(scope="module")
+def uneven():
+    """A vehicle whose left and right wheels differ by rounding."""
+    springs = [
+        rb.Spring("body", "rail", (x, y, 0.5), (1e6, 2e6), (1e4, 2e4))
+        for x, y in ((0.3, 0.8), (0.1 + 0.2, -0.8), (-3.0, 0.8), (-3.0, -0.8))
+    ]
+    body = rb.Body("body", 2e4, (1e4, 2e5, 2e5), (0.0, 0.0, 1.5))
+    return rb.Vehicle("uneven", (body,), tuple(springs), 9.0)
+
+
+def test_a_train_stands_behind_its_first_axle(train):
+    outline = train_outline(train, 30.0)
+    assert np.allclose(30.0 - outline.wheels, [0.0, 2.5, 15.6, 18.1, 22.5, 25.0, 38.1, 40.6])
+    first, second = outline.cars
+    assert np.allclose(second.ends, np.array(first.ends) - 22.5)
+    assert np.mean(first.ends) == pytest.approx(30.0 - 9.05)
+    front, rear = first.bogies
+    assert np.allclose(np.unique(front), [27.5, 30.0]) and np.allclose(
+        np.unique(rear), [11.9, 14.4]
+    )
+
+
+def test_bare_axle_loads_have_wheels_only():
+    outline = train_outline(rb.AxleTrain([0.0, 5.0], [2e5, 1e5]), 1.0)
+    assert outline.wheels.tolist() == [1.0, -4.0] and outline.cars == ()
+    assert [len(x) for x, _ in outline.paths(HEIGHTS).values()] == [0, 0, 2]
+
+
+def test_on_level_rails_all_parts_are_level(train):
+    paths = train_outline(train).paths(HEIGHTS)
+    assert np.all(paths["wheels"][1] == 0.5)
+    assert set(paths["bogies"][1][np.isfinite(paths["bogies"][1])]) == {1.0}
+    assert set(paths["cars"][1][np.isfinite(paths["cars"][1])]) == {1.5, 4.0}
+    assert len(paths["cars"][0]) == 2 * 6 and len(paths["bogies"][0]) == 4 * 3
+
+
+def test_on_a_slope_a_car_body_lies_as_its_bogies_do(train):
+    paths = train_outline(train).paths(HEIGHTS, rail=lambda x: 0.1 * x)
+    x, z = paths["wheels"]
+    assert np.allclose(z, 0.1 * x + 0.5)
+    x, z = (values.reshape(2, 6)[:, :5] for values in paths["cars"])
+    assert np.allclose(z - 0.1 * x, [1.5, 1.5, 4.0, 4.0, 1.5])
+
+
+def test_wheels_side_by_side_are_one_axle(uneven):
+    outline = VehicleOutline(uneven)
+    assert np.allclose(outline.wheels("side"), [-3.0, 0.3]) and outline.wheels("front") == [
+        -0.8,
+        0.8,
+    ]
+    assert len(train_outline(rb.Train(uneven, 3)).wheels) == 6
+    texts = [text.get_text() for text in rb.plots.vehicle(uneven)[0].texts]
+    assert "3.3 m" in texts
+    run = rb.cross(rb.Train(uneven), rb.deck("viaduct36"), speed=20.0, time_step=4e-3)
+    assert len(rb.plots.wheel_forces(run)) == 2
