@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 import railbridge as rb
 from railbridge.coupling import prepare
-from railbridge.decks import PiecewiseCubic
 from railbridge.settings import check
 
 L, M, EI = 36.0, 12e3, 8.93e10
@@ -47,20 +46,6 @@ def test_rayleigh_of_the_paper():
 def test_rayleigh_refuses(wrong, named):
     with pytest.raises(rb.InputError, match=f"^{named}"):
         rb.rayleigh(*wrong)
-
-
-@given(seed=st.integers(0, 999), at=st.floats(0.01, 9.99))
-def test_piecewise_cubic_derivatives(seed, at):
-    rng = np.random.default_rng(seed)
-    edges = np.array([0.0, 2.0, 5.0, 10.0])
-    function = PiecewiseCubic(edges, rng.normal(size=(3, 4, 2, 3)))
-    h = 1e-4
-    if np.min(np.abs(edges - at)) > 2 * h:
-        x = np.array([at - h, at, at + h])
-        f, f1, f2 = (function(x, d) for d in range(3))
-        assert (f[2] - f[0]) / (2 * h) == pytest.approx(f1[1], abs=1e-6)
-        assert (f[2] - 2 * f[1] + f[0]) / h**2 == pytest.approx(f2[1], abs=1e-4)
-    assert not function(np.array([-0.1, 10.1])).any()
 
 
 def moving_force(t, speed, load, x, modes, ratio):

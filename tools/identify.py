@@ -53,10 +53,9 @@ drop = {drop:g}
 
 _WRITTEN = (
     "slab_width", "slab_thickness", "root_thickness", "edge_thickness", "depth", "web_thickness",
-    "web_spacing",
-    "bottom_spacing", "bottom_thickness", "diaphragm_thickness", "inner_diaphragms",
-    "inner_diaphragm_thickness", "youngs_modulus", "poisson_ratio",
-    "density", "track_mass", "edge_mass",
+    "web_spacing", "bottom_spacing", "bottom_thickness", "diaphragm_thickness", "inner_diaphragms",
+    "inner_diaphragm_thickness", "youngs_modulus", "poisson_ratio", "density", "track_mass",
+    "edge_mass",
 )  # fmt: skip
 
 

@@ -192,15 +192,21 @@ def short(module):
     return module.__name__.rpartition(".")[2]
 
 
+def home(name, thing):
+    """The module that defines a public name; what is no class or function does not say it."""
+    if hasattr(thing, "__module__"):
+        return sys.modules[thing.__module__]
+    ours = (module for key, module in sorted(sys.modules.items()) if key.startswith("railbridge."))
+    return next(module for module in ours if name in module.__all__)
+
+
 def api_pages():
     """{file name: reStructuredText} for the public names, by the module that defines them."""
     import railbridge as rb
 
     modules = {}
     for name in rb.__all__:
-        modules.setdefault(sys.modules[getattr(rb, name).__module__], []).append(
-            f"railbridge.{name}"
-        )
+        modules.setdefault(home(name, getattr(rb, name)), []).append(f"railbridge.{name}")
     lazy = [getattr(rb, name) for name in dir(rb) if name not in rb.__all__]
     for module in lazy:
         modules[module] = [f"{module.__name__}.{name}" for name in module.__all__]

@@ -36,8 +36,7 @@ _ROOMS = {
     "boxes": ("Box", "BoxMesh", "Pads"),
     "cases": (
         "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table",
-        "planar_car",
-        "sprung_mass", "summarize", "two_bogie_car", "vehicle",
+        "planar_car", "sprung_mass", "summarize", "two_bogie_car", "vehicle",
     ),
     "validation": ("compared",),
 }  # fmt: skip
@@ -56,13 +55,11 @@ _MODULES = {
 
 __all__ = [
     "CONDENSED", "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "Case", "Crossing",
-    "Deck", "FadeIn",
-    "Harmonic", "History", "InputError", "Level", "NotConvergedError", "Notch", "Pads", "Passage",
-    "Rails", "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum",
-    "box",
-    "car_parameters", "case", "compared", "cross", "data_root", "deck", "deck_from_table",
-    "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio", "sprung_mass", "steady_forces",
-    "summarize", "two_bogie_car", "vehicle",
+    "Deck", "FadeIn", "Harmonic", "History", "InputError", "Level", "NotConvergedError", "Notch",
+    "Pads", "Passage", "Rails", "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle",
+    "amplitude_spectrum", "box", "car_parameters", "case", "compared", "cross", "data_root", "deck",
+    "deck_from_table", "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio",
+    "sprung_mass", "steady_forces", "summarize", "two_bogie_car", "vehicle",
 ]  # fmt: skip
 
 

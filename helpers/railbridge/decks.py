@@ -28,14 +28,13 @@ from .response import SampledModes, sampled_modes
 
 __all__ = [
     "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
-    "ModesOnly", "RATIO", "Recovery",
-    "checked_damping", "damping_ratios", "rayleigh", "rayleigh_ratio",
+    "ModesOnly", "RATIO", "Recovery", "checked_damping", "damping_ratios", "rayleigh",
+    "rayleigh_ratio",
 ]  # fmt: skip
 
 SECTION_QUANTITIES = {
-    "displacement_y": "m", "displacement_z": "m", "rotation_x": "rad",
-    "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m", "shear_vertical": "N",
-    "shear_lateral": "N",
+    "displacement_y": "m", "displacement_z": "m", "rotation_x": "rad", "moment_vertical": "N m",
+    "moment_lateral": "N m", "torsion": "N m", "shear_vertical": "N", "shear_lateral": "N",
 }  # fmt: skip
 REACTION_QUANTITIES = {"force_x": "N", "force_y": "N", "force_z": "N", "moment_x": "N m"}
 """What a deck recovers at a section and at a bearing line, with units."""

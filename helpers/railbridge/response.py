@@ -26,8 +26,8 @@ from scipy.signal import lfilter, lsim
 from .errors import number
 
 __all__ = [
-    "LinearSystem", "SampledModes", "SampledResponse",
-    "oscillator", "ramp_coefficients", "sampled_modes", "second_order_system",
+    "LinearSystem", "SampledModes", "SampledResponse", "oscillator", "ramp_coefficients",
+    "sampled_modes", "second_order_system",
 ]  # fmt: skip
 
 _WORST_CONDITION = 1e6

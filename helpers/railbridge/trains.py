@@ -26,8 +26,7 @@ from .vehicles import Vehicle, WheelResponse
 
 __all__ = [
     "CONDENSED", "EXCITATIONS", "LOADS", "AnyTrain", "AxleTrain", "Car", "Condensation", "Passage",
-    "PlacedAxle",
-    "Train", "Wheel", "steady_forces",
+    "PlacedAxle", "Train", "Wheel", "steady_forces",
 ]  # fmt: skip
 
 CONDENSED = ("force_y", "force_z", "moment_x", "moment_y", "moment_z")

@@ -403,8 +403,7 @@ def test_files_of_a_case_are_found_beside_it(here, capsys, monkeypatch):
 
 SECTION = {
     "youngs_modulus": 35e9, "poisson_ratio": 0.2, "density": 2500.0, "area": 4.8,
-    "second_moment_vertical": 2.5,
-    "second_moment_lateral": 25.0, "torsion_constant": 5.6,
+    "second_moment_vertical": 2.5, "second_moment_lateral": 25.0, "torsion_constant": 5.6,
 }  # fmt: skip
 NOTCH = {"wheels": [[1, 1]], "circumference": 2.7, "offset": 1.0, "depth": 1e-3, "length": 0.5}
 HARMONIC = {"kind": "harmonic", "amplitude": 1e-3, "wavelength": 10.0}

@@ -10,8 +10,7 @@ from railbridge.cases import objects as decks
 
 SECTION = {
     "youngs_modulus": 35e9, "poisson_ratio": 0.2, "density": 2500.0, "area": 4.8,
-    "second_moment_vertical": 2.553,
-    "second_moment_lateral": 25.53, "torsion_constant": 5.59,
+    "second_moment_vertical": 2.553, "second_moment_lateral": 25.53, "torsion_constant": 5.59,
 }  # fmt: skip
 EI, EA, G = 35e9 * 2.553, 35e9 * 4.8, 35e9 / 2.4
 TABLE = {

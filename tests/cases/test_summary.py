@@ -14,10 +14,8 @@ from railbridge.settings import bytes_needed
 
 KEYS = {
     "vehicle_frequencies_hz", "deck_frequencies_hz", "deck_mode_names", "remarks", "converged",
-    "iterations", "changes",
-    "deviation_percent",
-    "run", "wheel_force_z", "wheel_unloading", "points", "envelope", "reactions", "car_body",
-    "self_weight",
+    "iterations", "changes", "deviation_percent", "run", "wheel_force_z", "wheel_unloading",
+    "points", "envelope", "reactions", "car_body", "self_weight",
 }  # fmt: skip
 COARSE = {
     "train.cars": 1,

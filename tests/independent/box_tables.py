@@ -4,8 +4,7 @@ import railbridge as rb
 
 PLAIN = {
     "slab_width": 9.6, "slab_thickness": 0.25, "depth": 2.0, "web_thickness": 0.35,
-    "web_spacing": 5.0,
-    "bottom_thickness": 0.2, "youngs_modulus": 34e9,
+    "web_spacing": 5.0, "bottom_thickness": 0.2, "youngs_modulus": 34e9,
 }  # fmt: skip
 
 

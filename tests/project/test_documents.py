@@ -8,6 +8,7 @@ import pytest
 import yaml
 
 import railbridge as rb
+from railbridge.cases import pages
 
 ROOT = Path(__file__).resolve().parents[2]
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
@@ -94,3 +95,9 @@ def test_the_map_names_what_there_is(row):
         rf"^\s*(def|class) {last}\b", module.read_text(encoding="utf-8"), re.M
     )
     assert declared, f"{last} is not in {file}"
+
+
+def test_tables_of_the_case_page_are_those_of_the_types():
+    text = (ROOT / "docs" / "case.md").read_text(encoding="utf-8")
+    assert pages.with_tables(text) == text, "run `make pages`"
+    assert len(re.findall("<!-- table: ", text)) >= 10

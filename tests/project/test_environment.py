@@ -1,12 +1,15 @@
 """One set of asks: pyproject.toml, environment.yml, requirements.lock and installation agree."""
 
+import importlib
 import importlib.metadata
 import json
 import os
+import pkgutil
 import re
 import subprocess
 import sys
 import tomllib
+import types
 import zipfile
 from pathlib import Path
 
@@ -17,6 +20,7 @@ from packaging.specifiers import SpecifierSet
 from packaging.utils import canonicalize_name
 from packaging.version import Version
 
+import railbridge as rb
 from railbridge.cases import copies as lessons
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -105,13 +109,21 @@ def test_the_package_is_installed_in_place():
 
 
 def test_import_is_light():
-    """Plots, tables and panels load what they need when they are used."""
-    code = (
-        "import sys, railbridge; print([m for m in ('matplotlib', 'pandas', 'ipywidgets') "
-        "if m in sys.modules])"
-    )
+    """Plots, tables, panels and case files load what they need when they are used."""
+    heavy = ("matplotlib", "pandas", "ipywidgets", "pydantic", "jsonschema", "PIL")
+    code = f"import sys, railbridge; print([m for m in {heavy} if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stdout.strip() == "[]", done.stdout + done.stderr
+
+
+def test_no_module_shares_its_name_with_something_public():
+    """Else ``import railbridge.x as m`` gives the function in place of the module."""
+    modules = {m.name for m in pkgutil.iter_modules(rb.__path__)} - {"__main__"}
+    rooms = {"boxes", "exchange", "panels", "paper", "plots", "validation"}
+    assert modules & set(rb.__all__) <= rooms
+    for name in sorted(modules):
+        assert isinstance(importlib.import_module(f"railbridge.{name}"), types.ModuleType)
+        assert isinstance(getattr(rb, name, types), types.ModuleType), name
 
 
 @pytest.fixture(scope="module")

@@ -21,8 +21,7 @@ KINDS = ("vertical", "lateral", "torsion", "axial", "local")
 
 _LABELS = {
     "vertical": "vertical bending", "lateral": "lateral bending", "torsion": "torsion",
-    "axial": "axial",
-    "mixed": "axial-bending", "local": "local plate",
+    "axial": "axial", "mixed": "axial-bending", "local": "local plate",
 }  # fmt: skip
 
 

@@ -15,9 +15,8 @@ _STIFFNESS, _DAMPING = Range(least=0.0, unit="N/m"), Range(least=0.0, unit="N s/
 _LENGTH, _HEIGHT = Range(above=0.0, unit="m"), Range(unit="m")
 
 CAR_PARAMETERS = {
-    "car_body_mass": _MASS, "car_body_roll_inertia": _INERTIA,
-    "car_body_pitch_inertia": _INERTIA, "car_body_yaw_inertia": _INERTIA,
-    "bogie_mass": _MASS, "bogie_roll_inertia": _INERTIA,
+    "car_body_mass": _MASS, "car_body_roll_inertia": _INERTIA, "car_body_pitch_inertia": _INERTIA,
+    "car_body_yaw_inertia": _INERTIA, "bogie_mass": _MASS, "bogie_roll_inertia": _INERTIA,
     "bogie_pitch_inertia": _INERTIA, "bogie_yaw_inertia": _INERTIA,
     "primary_vertical_stiffness": _STIFFNESS, "primary_lateral_stiffness": _STIFFNESS,
     "secondary_vertical_stiffness": _STIFFNESS, "secondary_lateral_stiffness": _STIFFNESS,

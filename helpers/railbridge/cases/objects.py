@@ -28,8 +28,7 @@ from .tabletypes import Table, checked
 
 __all__ = [
     "box", "box_from_table", "car_parameters", "deck", "deck_from_table", "deck_of_case",
-    "track_of_case",
-    "train_of_case", "vehicle",
+    "track_of_case", "train_of_case", "vehicle",
 ]  # fmt: skip
 
 # ---- vehicles

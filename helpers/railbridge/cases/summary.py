@@ -24,8 +24,8 @@ __all__ = ["QUANTITIES", "HistoryTable", "histories", "summarize", "to_json"]
 
 QUANTITIES = {
     "displacement_z": "m", "displacement_y": "m", "rotation_x": "rad", "acceleration_z": "m/s2",
-    "acceleration_y": "m/s2",
-    "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m", "shear_vertical": "N",
+    "acceleration_y": "m/s2", "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m",
+    "shear_vertical": "N",
 }  # fmt: skip
 """What is told of every point, with units."""
 

@@ -506,13 +506,10 @@ CASE = table(
 )
 TABLES = {
     "deck": BEAM, "deck.file": SHIPPED, "deck.section": SECTION, "deck.bearing": BEARING,
-    "deck.box": BOX, "box deck": BOX_DECK,
-    "box bearing": PADS, "deck.mesh": MESH, "deck.modes": MODES, "modal deck": MODAL_DECK,
-    "deck.damping": RAYLEIGH,
-    "modal damping": MODAL, "train": OF_ONE_KIND, "mixed train": MIXED, "train.cars": SEVERAL,
-    "bare train": BARE,
+    "deck.box": BOX, "box deck": BOX_DECK, "box bearing": PADS, "deck.mesh": MESH,
+    "deck.modes": MODES, "modal deck": MODAL_DECK, "deck.damping": RAYLEIGH, "modal damping": MODAL,
+    "train": OF_ONE_KIND, "mixed train": MIXED, "train.cars": SEVERAL, "bare train": BARE,
     "train.notch": NOTCH, "track": TRACK, "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED,
-    "none": LEVEL,
-    "run": RUN, "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
+    "none": LEVEL, "run": RUN, "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
 }  # fmt: skip
 """Every table by what the pages call it."""
