@@ -205,8 +205,8 @@ def test_energy_of_an_undamped_crossing_is_what_the_traction_gives(
     back with -F (w' + r'), and the traction, which keeps V, does that work. With F = D - W, D the
     dynamic part and W the weight, the energy is, counted from rest,
 
-        E = sum (q'^2 + omega^2 q^2) / 2 + m z'^2 / 2 + D^2 / (2 k) + W u,        z' = -int D / m
-        dt.
+        E = sum (q'^2 + omega^2 q^2) / 2 + m z'^2 / 2 + D^2 / (2 k) + W u,
+        z' = -int D / m dt.
 
     The last term is weight lifted: the spring carries W from the start. Sideways the same holds
     without weight, with v for w.

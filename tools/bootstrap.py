@@ -1,7 +1,8 @@
 """Create or update the project's environment in `.venv`, and do nothing when it is already right.
 
-    python3 tools/bootstrap.py            create or update `.venv` python3 tools/bootstrap.py --lock
-    write requirements.lock from pyproject.toml (add --upgrade for newer versions)
+    python3 tools/bootstrap.py            create or update `.venv`
+    python3 tools/bootstrap.py --lock     write requirements.lock from pyproject.toml
+    python3 tools/bootstrap.py --lock --upgrade     the same with newer versions
 
 Any Python >= 3.11 with its standard library runs this file. It installs the versions of
 requirements.lock with uv, which is several times faster than pip and byte-compiles in parallel, and

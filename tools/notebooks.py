@@ -1,8 +1,8 @@
 """Execute notebooks and store their outputs. This is the only way outputs get into the repository.
 
-    python tools/notebooks.py                       all numbered notebooks and the template python
-    tools/notebooks.py notebooks/03_x.ipynb  only those named python tools/notebooks.py --check
-    only list notebooks that are stored without outputs
+    python tools/notebooks.py                       all numbered notebooks and the template
+    python tools/notebooks.py notebooks/03_x.ipynb  only those named
+    python tools/notebooks.py --check               list notebooks stored without outputs
 
 Each notebook runs from top to bottom in a fresh kernel, in its own folder. What is stored depends
 on nothing but the cells and the installed versions: no times, no widget state, no kernel details.

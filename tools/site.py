@@ -1,8 +1,6 @@
-"""Build the static site in build/site: all notebooks as they are stored, the documents, the
-functions, a gallery.
+"""Build the static site in build/site: stored notebooks, documents, functions, a gallery.
 
-    python tools/site.py            then open build/site/index.html; no server and no network are
-    needed
+    python tools/site.py            then open build/site/index.html, without server or network
 
 Nothing is executed. A warning of Sphinx is an error.
 """

@@ -1,0 +1,67 @@
+"""Shapes along the deck, and the loads that travel over them."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import railbridge as rb
+from railbridge.guideways import PiecewiseCubic
+
+DECK = rb.deck("viaduct36")
+
+
+@given(seed=st.integers(0, 999), at=st.floats(0.01, 9.99))
+def test_piecewise_cubic_derivatives(seed, at):
+    rng = np.random.default_rng(seed)
+    edges = np.array([0.0, 2.0, 5.0, 10.0])
+    function = PiecewiseCubic(edges, rng.normal(size=(3, 4, 2, 3)))
+    h = 1e-4
+    if np.min(np.abs(edges - at)) > 2 * h:
+        x = np.array([at - h, at, at + h])
+        f, f1, f2 = (function(x, d) for d in range(3))
+        assert (f[2] - f[0]) / (2 * h) == pytest.approx(f1[1], abs=1e-6)
+        assert (f[2] - 2 * f[1] + f[0]) / h**2 == pytest.approx(f2[1], abs=1e-4)
+    assert not function(np.array([-0.1, 10.1])).any()
+
+
+@given(
+    speed=st.floats(5.0, 90.0),
+    delays=st.lists(st.floats(0.0, 60.0), min_size=1, max_size=4),
+    couples=st.booleans(),
+    seed=st.integers(0, 99),
+)
+def test_modal_forces_and_motions_of_stations_are_those_of_the_shapes(speed, delays, couples, seed):
+    """Against the shapes themselves, at the place of each load, one sample after the other."""
+    rng, step, samples = np.random.default_rng(seed), 5e-3, 400
+    delays = np.array(delays)
+    stations = DECK.stations(delays, speed, step, samples)
+    loads = [rng.normal(size=(5 if couples else 3, count)) for count in stations.counts]
+    modal = stations.modal_force(loads, DECK.coordinates, samples)
+    q, velocity = rng.normal(size=(2, DECK.coordinates, samples))
+    state = stations.ordered(q, velocity)
+    k = int(rng.integers(0, samples))
+    expected = np.zeros(DECK.coordinates)
+    for group in stations.alike(np.arange(len(delays))):
+        moved, rate = stations.motion(state, group)
+        for place, s in enumerate(group):
+            here = k - stations.starts[s]
+            if not 0 <= here < stations.counts[s]:
+                continue
+            x = np.array([speed * k * step - delays[s]])
+            shape, slope = DECK.shapes(x)[0], DECK.shapes(x, 1)[0]
+            load = loads[s][:, here]
+            expected += shape @ load[:3]
+            if couples:
+                expected += slope[:, 0] * load[4] - slope[:, 1] * load[3]
+            assert moved[:, place, here] == pytest.approx(q[:, k] @ shape, abs=1e-9)
+            total = velocity[:, k] @ shape + speed * (q[:, k] @ slope)
+            assert rate[:, place, here] == pytest.approx(total, abs=1e-9 * speed)
+    assert modal[:, k] == pytest.approx(expected, abs=1e-9)
+
+
+def test_a_track_by_its_name_is_its_distance():
+    assert DECK.track_offset("right") == -2.4
+    assert DECK.track_offset(1.5) == 1.5
+    with pytest.raises(rb.InputError, match=r"^track_offset = 'rigth'.*right"):
+        DECK.track_offset("rigth")

@@ -1,0 +1,86 @@
+"""What a run can be asked."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import railbridge as rb
+from railbridge.results import ENVELOPE
+
+DECK = rb.deck("viaduct36")
+RUN = rb.case("paper").replace({"train.cars": 2, "run.time_step": 2e-3, "run.iterations": 2}).run()
+OFF_AXIS = rb.cross(
+    rb.AxleTrain([0.0, 3.0], [1e5, 2e5]), DECK, speed=20.0, time_step=2e-3, track_offset=2.4
+)
+
+
+@pytest.mark.parametrize("run", [RUN, OFF_AXIS], ids=["cars", "axles"])
+@pytest.mark.parametrize("quantity", ENVELOPE)
+def test_an_envelope_is_the_histories_side_by_side(run, quantity):
+    """At each place the history that is asked for alone: one way to the same numbers."""
+    places = [0.0, 4.5, 18.0, 30.2]
+    envelope = run.envelope(quantity, places)
+    for x, row in zip(places, envelope.values, strict=True):
+        if quantity == "displacement_z":
+            alone = run.displacement(x)
+        elif quantity == "acceleration_z":
+            alone = run.acceleration(x)
+        else:
+            alone = run.section_forces(x)
+        size = np.abs(envelope.values).max()
+        assert row == pytest.approx(alone[quantity], abs=1e-9 * size)
+
+
+def test_static_extremes_of_a_simple_beam_are_those_of_the_book():
+    """Two axles a apart on a span L: the largest moment at mid-span, one axle there, is
+    P L / 4 + Q (L / 2 - a) / 2; the largest reaction, one axle over it, P + Q (L - a) / L."""
+    beam = rb.Beam("simple", (36.0,), 12e3, 8.93e10, 8.9e11, 8.15e10, polar_inertia=7.02e4)
+    run = rb.cross(
+        rb.AxleTrain([0.0, 3.0], [1e5, 2e5]), beam.deck(6, 0.02), speed=20.0, time_step=5e-3
+    )
+    recovery = run.deck.recovery
+    low, high = run.static_extremes(recovery.section("moment_vertical", 18.0))
+    assert (low, high) == pytest.approx((-(2e5 * 9.0 + 1e5 * 15.0 / 2), 0.0), rel=1e-6)
+    worst = [
+        max(map(abs, run.static_extremes(recovery.reaction("force_z", x)))) for x in (0.0, 36.0)
+    ]
+    assert max(worst) == pytest.approx(2e5 + 1e5 * 33.0 / 36.0, rel=1e-6)
+
+
+def test_statics_are_influence_times_load_at_every_instant():
+    line = DECK.recovery.section("moment_vertical", 18.0)
+    axles = zip(OFF_AXIS.train.placed_axles, (1e5, 2e5), strict=True)
+    expected = np.zeros_like(OFF_AXIS.time)
+    for axle, load in axles:
+        x = 20.0 * OFF_AXIS.time - axle.delay
+        on = (x >= 0.0) & (x <= 36.0)
+        expected[on] -= load * line.influence(x[on])[:, 0, 1]
+        expected[on] -= 2.4 * load * line.influence(x[on])[:, 0, 2]
+    size = np.abs(expected).max()
+    assert OFF_AXIS.static(line) == pytest.approx(expected, abs=1e-9 * size)
+
+
+def test_a_deck_of_modes_alone_says_what_it_cannot():
+    run = rb.cross(
+        rb.AxleTrain([0.0], [1e5]),
+        replace(DECK, recovery=None),
+        speed=20.0,
+        time_step=2e-3,
+    )
+    known = rb.cross(rb.AxleTrain([0.0], [1e5]), DECK, speed=20.0, time_step=2e-3)
+    assert np.array_equal(
+        run.displacement(18.0)["displacement_z"], known.displacement(18.0)["displacement_z"]
+    )
+    assert run.envelope("moment_vertical", [18.0]) is None
+    assert run.envelope("displacement_z", [18.0]) is not None
+    for ask in (run.reactions, run.bearing_forces, lambda: run.section_forces(18.0)):
+        with pytest.raises(rb.InputError, match="only its modes are known"):
+            ask()
+
+
+def test_what_an_envelope_may_not_be_asked():
+    with pytest.raises(rb.InputError, match=r"^quantity = 'moment'"):
+        RUN.envelope("moment")
+    with pytest.raises(rb.InputError, match=r"^x\[2\] = 36.5"):
+        RUN.envelope("displacement_z", [0.0, 36.5])
