@@ -1,12 +1,16 @@
 """What is filled in when it is left open."""
 
+import inspect
+import tracemalloc
+from dataclasses import fields
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import railbridge as rb
-from railbridge.settings import check, default_time_step
+from railbridge.settings import Options, bytes_needed, check, default_time_step
 from railbridge.trains import Passage
 
 CAR = rb.vehicle("xia2000")
@@ -77,3 +81,41 @@ def test_a_lead_in_too_short_for_its_fade_in_is_refused():
         assert (
             check(train, deck, track, speed=20.0, time_step=1e-3, lead_in=length).lead_in == length
         )
+
+
+def test_options_are_declared_once():
+    """The signature and the docstring of `cross` come from the fields of `Options`."""
+    names = [f.name for f in fields(Options)]
+    shown = inspect.signature(rb.cross).parameters
+    assert list(shown) == ["train", "deck", "track", *names, "progress"]
+    assert all(shown[name].kind is inspect.Parameter.KEYWORD_ONLY for name in names)
+    assert shown["speed"].default is inspect.Parameter.empty
+    assert [shown[f.name].default for f in fields(Options)[1:]] == [
+        f.default for f in fields(Options)[1:]
+    ]
+    for name in names:
+        assert f"\n{name} : " in rb.cross.__doc__, name
+    with pytest.raises(rb.InputError, match="sped.*speed"):
+        rb.cross(rb.Train(CAR), DECK, sped=20.0)
+
+
+@pytest.mark.parametrize(
+    ("cars", "options"),
+    [
+        (1, {"time_step": 2e-3, "iterations": 2}),
+        (8, {"time_step": 2e-3, "iterations": 4}),
+        (8, {"time_step": 2e-3, "loads": "condensed", "iterations": 2}),
+        (4, {"time_step": 1e-3, "interaction": "direct"}),
+    ],
+)
+def test_the_memory_that_is_foreseen_is_about_what_is_used(cars, options):
+    """Peak of what NumPy keeps while run, histories and envelope are made: never far above."""
+    train = rb.Train(CAR, cars=cars)
+    settings = check(train, DECK, rb.Track(), speed=20.0, **options)
+    foreseen = bytes_needed(train, DECK, settings) - 1.2e8  # what Python and its packages take
+    tracemalloc.start()
+    run = rb.cross(train, DECK, speed=20.0, **options)
+    run.displacement(18.0), run.section_forces(18.0), run.envelope("moment_vertical")
+    used = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert 0.7 * used < foreseen + 5e6 and foreseen < 4.0 * used + 5e6
