@@ -246,3 +246,23 @@ def test_what_is_no_vehicle_or_notch_is_refused_in_words(made, named):
     with pytest.raises(rb.InputError) as caught:
         made()
     assert caught.value.field == named
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"vehicle": rb.Train(rb.vehicle("xia2000"))}, "^vehicle = .*must be a Vehicle"),
+        ({"track": rb.Harmonic(1e-3, wavelength=10.0)}, "^track = .*must be a Track"),
+        ({"track": rb.Track()}, "^track.*one wavelength"),
+        ({"speed": -20.0}, "^speed = -20.0: .*above 0"),
+        ({"excitation": "wheel"}, "^excitation = 'wheel'.*wheels"),
+    ],
+)
+def test_what_has_no_steady_forces(change, said):
+    good = {
+        "vehicle": rb.vehicle("xia2000"),
+        "track": rb.Track(rb.Harmonic(1e-3, wavelength=10.0)),
+        "speed": 20.0,
+    }
+    with pytest.raises(rb.InputError, match=said):
+        rb.steady_forces(**good | change)

@@ -479,9 +479,9 @@ class AxleTrain(AnyTrain):
 def steady_forces(
     vehicle: Vehicle, track: Track, speed: float, excitation: str = "wheels"
 ) -> np.ndarray:
-    """Return the steady wheel forces on harmonic irregularities, which the run-up tends to.
+    """Return the steady wheel forces on harmonic irregularities, in closed form.
 
-    In closed form.
+    They are what forces tend to as the run-up grows.
 
     Parameters
     ----------
@@ -498,7 +498,17 @@ def steady_forces(
     ndarray, shape (wheels, 2), complex
         Amplitude and phase: force = Im(F exp(i 2 pi V t / wavelength)), with the car's mid-length
         at x = 0 at t = 0; lateral before vertical.
+
+    Raises
+    ------
+    InputError
     """
+    if not isinstance(vehicle, Vehicle):
+        raise InputError("vehicle", vehicle, "must be a Vehicle")
+    if not isinstance(track, Track):
+        raise InputError("track", track, "must be a Track")
+    errors.choice("excitation", excitation, EXCITATIONS)
+    speed = errors.number("speed", speed, above=0.0, unit="m/s")
     rails = [track.rail(d, s) for d in ("lateral", "vertical") for s in ("left", "right")]
     waves = {rail.wavelength for rail in rails if hasattr(rail, "wavelength")}
     others = any(np.isfinite(r.shortest) and not hasattr(r, "wavelength") for r in rails)
