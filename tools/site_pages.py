@@ -192,24 +192,35 @@ def short(module):
     return module.__name__.rpartition(".")[2]
 
 
-def home(name, thing):
-    """The module that defines a public name; what is no class or function does not say it."""
-    if hasattr(thing, "__module__"):
+def home(name, thing, asked=()):
+    """The module that defines a public name; for data, the first whose source assigns it."""
+    if inspect.isclass(thing) or inspect.isroutine(thing):
         return sys.modules[thing.__module__]
-    ours = (module for key, module in sorted(sys.modules.items()) if key.startswith("railbridge."))
-    return next(module for module in ours if name in module.__all__)
+    ours = [module for key, module in sys.modules.items() if key.startswith("railbridge.")]
+    ours = [*asked, *ours]
+    assigned = re.compile(rf"^{name}(: [^=\n]+)? = ", re.MULTILINE)
+    return next(module for module in ours if assigned.search(inspect.getsource(module)))
 
 
 def api_pages():
-    """{file name: reStructuredText} for the public names, by the module that defines them."""
+    """{file name: reStructuredText} for the public names, by room or by module of the spine."""
     import railbridge as rb
 
-    modules = {}
+    rooms = {name: getattr(rb, name) for name in dir(rb) if name not in rb.__all__}
+    modules, listed = {}, set()
     for name in rb.__all__:
-        modules.setdefault(home(name, getattr(rb, name)), []).append(f"railbridge.{name}")
-    lazy = [getattr(rb, name) for name in dir(rb) if name not in rb.__all__]
-    for module in lazy:
-        modules[module] = [f"{module.__name__}.{name}" for name in module.__all__]
+        thing = getattr(rb, name)
+        place = home(name, thing)
+        place = rooms.get(place.__name__.split(".")[1], place)
+        modules.setdefault(place, []).append(f"railbridge.{name}")
+        listed.add(id(thing))
+    for module in rooms.values():
+        for name in module.__all__:
+            thing = getattr(module, name)
+            if id(thing) not in listed:
+                listed.add(id(thing))
+                owner = module if callable(thing) else home(name, thing, [module])
+                modules.setdefault(module, []).append(f"{owner.__name__}.{name}")
     pages = {
         short(module): api_page(module, modules[module]) for module in sorted(modules, key=short)
     }
