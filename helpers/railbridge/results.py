@@ -96,7 +96,7 @@ class Crossing:
         rms(F_i - F_(i-1)) / rms(F_i - static).
     converged : bool or None
         None for interaction ``rigid`` and ``direct``.
-    shown : int
+    iteration : int
         Which iteration the methods speak of.
     coupling : Coupling
         What all iterations share.
@@ -111,7 +111,7 @@ class Crossing:
     passes: tuple[ForcesAdded, ...] = field(repr=False)
     changes: tuple[float, ...]
     converged: bool | None
-    shown: int
+    iteration: int
     coupling: Coupling = field(repr=False)
     states: dict[int, DeckState] = field(default_factory=dict, repr=False)
 
@@ -137,8 +137,8 @@ class Crossing:
 
     def at(self, iteration: int) -> Crossing:
         """Return the same crossing as it stood at an iteration; 0 is the rigid deck's forces."""
-        shown = errors.integer("iteration", iteration, most=self.iterations)
-        return replace(self, shown=shown)
+        errors.integer("iteration", iteration, most=self.iterations)
+        return replace(self, iteration=iteration)
 
     @cached_property
     def spectrum(self) -> Spectrum:
@@ -152,7 +152,7 @@ class Crossing:
         reach = first.car.axles[-1].delay + self.deck.length
         stop = int(np.floor(reach / advance + 1e-4)) + 1
         total = first.rigid[:, 1, :stop].sum(axis=0)
-        added = self.passes[self.shown][0][:, 1, : stop - first.window.start]
+        added = self.passes[self.iteration][0][:, 1, : stop - first.window.start]
         total[first.window] += added.sum(axis=0)
         return amplitude_spectrum(total, self.settings.time_step)
 
@@ -186,8 +186,8 @@ class Crossing:
         """Wheel forces of one car, shape (its wheels, 2, n)."""
         number = c.car.number
         if number not in self._known:
-            felt = self._felt if self.shown > 0 else None
-            forces = self.coupling.car_wheel_forces(c, self.passes[self.shown], felt)
+            felt = self._felt if self.iteration > 0 else None
+            forces = self.coupling.car_wheel_forces(c, self.passes[self.iteration], felt)
             self._known[number] = frozen(forces)
         return self._known[number]
 
@@ -198,7 +198,7 @@ class Crossing:
         That of the pass before, or, solved directly, their own.
         """
         direct = self.settings.interaction == "direct"
-        return self.state if direct else self.at(self.shown - 1).state
+        return self.state if direct else self.at(self.iteration - 1).state
 
     def wheel_force(self, car: int = 1, wheel: int = 1) -> History:
         """Return lateral and vertical force of one wheel on the deck, N, static part included.
@@ -229,7 +229,7 @@ class Crossing:
         if not self.train.kinds():
             return frozen(np.zeros((0, 3, 2, len(self.time))))
         rigid = self.train.rigid_accelerations(self.track, self.settings.passage)
-        if self.shown > 0:
+        if self.iteration > 0:
             added = self.coupling.body_accelerations(self._felt)
             rigid = [r + a for r, a in zip(rigid, added, strict=True)]
         return frozen(np.array(rigid))
@@ -269,14 +269,14 @@ class Crossing:
 
     @cached_property
     def _loads(self) -> list[np.ndarray]:
-        return self.coupling.station_loads(self.passes[self.shown])
+        return self.coupling.station_loads(self.passes[self.iteration])
 
     @property
     def state(self) -> DeckState:
-        """The deck's modal state at the iteration shown, computed when it is first asked for."""
-        if self.shown not in self.states:
-            self.states[self.shown] = self.coupling.deck_state(self._loads)
-        return self.states[self.shown]
+        """The deck's modal state at this iteration, computed when it is first asked for."""
+        if self.iteration not in self.states:
+            self.states[self.iteration] = self.coupling.deck_state(self._loads)
+        return self.states[self.iteration]
 
     @property
     def _modal_acceleration(self) -> np.ndarray:

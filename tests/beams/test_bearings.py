@@ -114,7 +114,7 @@ def test_forces_and_displacements_are_those_of_a_frame_program(beam, x, force, a
     for i, b in enumerate(beam.bearings, start=1):
         for quantity, direction in QUANTITIES.items():
             line = recovery.bearing(i, quantity)
-            assert (line is None) == (FIXITIES[direction] not in b.held)
+            assert (line is None) == (FIXITIES[direction] not in b.restrained)
             if line is not None:
                 ours = value(line)
                 assert ours == pytest.approx(

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from railbridge.boxes.pads import Pad, elimination, free_count, held
+from railbridge.boxes.pads import Pad, elimination, free_motion_count, support_rows
 
 STATIONS = np.array([0.0, 0.5, 1.2, 2.0, 3.0])
 POINTS = 2  # of the section
@@ -22,7 +22,7 @@ def field(function, freedom, point=1):
 )
 def test_a_pad_holds_the_mean_over_its_length_on_the_deck(x, length):
     """Of a linear field that is its value at the middle of what lies under the deck."""
-    (row, stiffness), *_ = held([Pad(x, length, 1, fixed=("z",))], STATIONS, POINTS, SIZE)
+    (row, stiffness), *_ = support_rows([Pad(x, length, 1, fixed=("z",))], STATIONS, POINTS, SIZE)
     a, b = max(x - length / 2, 0.0), min(x + length / 2, 3.0)
     assert np.isinf(stiffness)
     assert (row @ field(lambda s: 2.0 + 3.0 * s, 2))[0] == pytest.approx(2.0 + 1.5 * (a + b))
@@ -32,7 +32,7 @@ def test_a_pad_holds_the_mean_over_its_length_on_the_deck(x, length):
 def test_a_pad_below_the_point_moves_as_the_foot_turns():
     """w = c x turns the foot by -c about y, so a point `arm` below it moves along x by c arm; roll
     moves it along y."""
-    (along, first), (across, second) = held(
+    (along, first), (across, second) = support_rows(
         [Pad(1.0, 1.5, 1, 0.4, ("y",), {"x": 5e6})], STATIONS, POINTS, SIZE
     )
     assert (first, second) == (5e6, np.inf)
@@ -43,7 +43,7 @@ def test_a_pad_below_the_point_moves_as_the_foot_turns():
 def test_what_is_left_keeps_every_condition():
     """Overlapping pads: any motion of the freedoms that are left satisfies all rows, and none but
     the conditions is lost."""
-    rows = held(
+    rows = support_rows(
         [Pad(1.0, 1.5, 1), Pad(1.4, 1.5, 1), Pad(2.0, 0.1, 0, 0.3, ("x", "z"))],
         STATIONS,
         POINTS,
@@ -57,7 +57,8 @@ def test_what_is_left_keeps_every_condition():
 
 def test_springs_eliminate_nothing():
     turn, left = elimination(
-        held([Pad(1.0, 0.5, 1, fixed=(), stiffness={"z": 1e8})], STATIONS, POINTS, SIZE), SIZE
+        support_rows([Pad(1.0, 0.5, 1, fixed=(), stiffness={"z": 1e8})], STATIONS, POINTS, SIZE),
+        SIZE,
     )
     assert np.array_equal(turn.toarray(), np.eye(SIZE)) and left.tolist() == list(range(SIZE))
 
@@ -72,4 +73,4 @@ def test_ways_to_move_are_counted():
         ([Pad(x, 0.5, p, 0.0, ("y", "z")) for x in ends for p in (0, 1)], 1),
         ([Pad(x, 0.5, p, 0.0, ("x", "y", "z")) for x in ends for p in (0, 1)], 0),
     ):
-        assert free_count(held(pads, STATIONS, POINTS, SIZE), nodes, 3.0) == free
+        assert free_motion_count(support_rows(pads, STATIONS, POINTS, SIZE), nodes, 3.0) == free

@@ -157,7 +157,7 @@ def test_held_pads_do_not_move_and_turn_freely():
     )
     s = tube(2.0, 1.6, 0.1, 20.0, 40, pads=pads)
     first = s.modes(3).vectors.reshape(-1, 3)
-    for row, _ in s._held:
+    for row, _ in s._support_rows:
         assert np.abs(row @ first).max() < 1e-12 * np.abs(first).max() * 1e3
     w = first.reshape(len(s.nodes), 6, 3)[np.arange(41) * len(s.points) + 8, 2]
     assert np.ptp(w[1:4, :], axis=0).max() > 1e-3 * np.abs(w).max()

@@ -45,7 +45,12 @@ def test_bearings_of_a_file_stand_where_it_says():
     )
     assert deck.supports == (0.0, 36.0)
     assert beam_of(deck).bearings[0] == Bearing(0.0, ("y", "z"), 1.5, -1.3, {"x": 6e9})
-    assert [b.held for b in beam_of(deck).bearings] == [("x", "y", "z"), ("z",), ("y", "z"), ("z",)]
+    assert [b.restrained for b in beam_of(deck).bearings] == [
+        ("x", "y", "z"),
+        ("z",),
+        ("y", "z"),
+        ("z",),
+    ]
     same = rb.Beam(
         "b",
         (36.0,),

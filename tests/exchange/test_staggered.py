@@ -46,7 +46,7 @@ def test_the_fixed_point_with_another_program_is_ours(ours, tmp_path):
         loads = staggered.export_loads(step, tmp_path / "loads.csv")
         write_motion(tmp_path / "motion.csv", line, loads.time, answer(deck, loads))
         step = staggered.next_forces(step, staggered.read_motion(tmp_path / "motion.csv", line))
-        assert step.shown == iteration
+        assert step.iteration == iteration
         assert step.changes[-1] == pytest.approx(ours.changes[iteration - 1], rel=0.02)
         added, own = step.passes[-1][0], ours.passes[iteration][0]
         # The deck's share of the forces, itself a few per cent of their dynamic part.

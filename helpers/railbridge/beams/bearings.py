@@ -95,7 +95,7 @@ class Bearing:
         object.__setattr__(self, "fixed", tuple(fixed))
 
     @property
-    def held(self) -> tuple[str, ...]:
+    def restrained(self) -> tuple[str, ...]:
         """All it holds, rigidly or by springs, in the order x y z roll pitch yaw."""
         return tuple(n for n in FIXITIES if n in self.fixed or n in self.stiffness)
 
@@ -209,7 +209,7 @@ def free_motions(
             "pitching": [0, 0, s * length, 0, 0, 1],
             "yawing": [0, s * length, 0, 0, 1, 0],
         }
-        for name in b.held:
+        for name in b.restrained:
             weight = min(1.0, b.stiffness[name] / reference[name]) if name in b.stiffness else 1.0
             row = weight * b.row(name, centroid)
             scale = 1.0 if name in "xyz" else length

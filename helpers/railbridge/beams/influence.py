@@ -152,11 +152,13 @@ class BeamRecovery:
         # A couple about the axis is also held by forces beside it or below it.
         holds = {
             "moment_x": lambda b: (
-                "roll" in b.held or ("z" in b.held and b.y != 0.0) or ("y" in b.held and b.z != 0.0)
+                "roll" in b.restrained
+                or ("z" in b.restrained and b.y != 0.0)
+                or ("y" in b.restrained and b.z != 0.0)
             )
         }
         if name not in self.beam.fields or not any(
-            holds.get(quantity, lambda b: _HELD_BY[quantity] in b.held)(b) for b in here
+            holds.get(quantity, lambda b: _HELD_BY[quantity] in b.restrained)(b) for b in here
         ):
             return None
         ground = np.zeros(mesh.size)
@@ -167,7 +169,7 @@ class BeamRecovery:
 
     def _bearing(self, index: int, freedom: str) -> Line | None:
         mesh, bearing = self.mesh, self.beam.bearings[index]
-        if freedom not in bearing.held or not np.any(mesh.row(index, freedom)):
+        if freedom not in bearing.restrained or not np.any(mesh.row(index, freedom)):
             return None
         node, load = mesh.places[index], np.zeros(mesh.size)
         here = slice(6 * node, 6 * node + 6)

@@ -293,7 +293,7 @@ class BeamProperties:
         for freedom, (name, key) in keys.items():
             row = bearing.row(freedom, self.centroid_height)
             coupled = [t for t in turning if row[places[t]] != 0.0]
-            if freedom in bearing.held and name not in self.fields and coupled:
+            if freedom in bearing.restrained and name not in self.fields and coupled:
                 beside = (
                     "is held beside the axis, which would also hold "
                     f"{' and '.join(coupled)} unless the deck gives that way"
@@ -339,7 +339,7 @@ class BeamProperties:
             free = free_motions(own, self.fields, self.length, self.centroid_height, reference)
             if free:
                 what = "the deck" if self.continuous else f"span {piece + 1}"
-                held = [(b.x, " ".join(b.held)) for b in own]
+                held = [(b.x, " ".join(b.restrained)) for b in own]
                 allowed = f"do not keep {what} from {' or '.join(free)}, so it is a mechanism"
                 raise InputError(
                     "bearings", held, allowed, "Hold one more freedom, or one more bearing line"

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.sparse import csr_array, eye_array, vstack
 
-__all__ = ["DIRECTIONS", "Pad", "elimination", "free_count", "held"]
+__all__ = ["DIRECTIONS", "Pad", "elimination", "free_motion_count", "support_rows"]
 
 DIRECTIONS = ("x", "y", "z")
 """What a pad may hold."""
@@ -47,7 +47,7 @@ class Pad:
     stiffness: dict[str, float] = field(default_factory=dict)
 
 
-def held(
+def support_rows(
     pads: Sequence[Pad], stations: np.ndarray, points: int, size: int
 ) -> list[tuple[csr_array, float]]:
     """Return what pads hold.
@@ -120,7 +120,7 @@ def _over(pad: Pad, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def elimination(rows: Sequence[tuple[csr_array, float]], size: int) -> tuple[csr_array, np.ndarray]:
     """Return what turns the freedoms that rigid bearings leave into all, and which are left.
 
-    See `held`.
+    See `support_rows`.
     """
     rigid = [row for row, stiffness in rows if np.isinf(stiffness)]
     if not rigid:
@@ -147,8 +147,10 @@ def elimination(rows: Sequence[tuple[csr_array, float]], size: int) -> tuple[csr
     return csr_array((values, (places, columns)), shape=(size, len(left))), left
 
 
-def free_count(rows: Sequence[tuple[csr_array, float]], nodes: np.ndarray, length: float) -> int:
-    """Return how many rigid-body motions of nodes, shape (n, 3), the rows of `held` leave free.
+def free_motion_count(
+    rows: Sequence[tuple[csr_array, float]], nodes: np.ndarray, length: float
+) -> int:
+    """Return how many rigid-body motions of nodes, shape (n, 3), `support_rows` leave free.
 
     `length` (m) makes turning and moving comparable.
     """

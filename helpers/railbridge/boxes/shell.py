@@ -17,7 +17,7 @@ from ..beams.eigen import lowest
 from ..errors import InputError
 from ..guideways import PiecewiseCubic
 from .motions import ShellModes, described, sectionwise
-from .pads import Pad, elimination, free_count, held
+from .pads import Pad, elimination, free_motion_count, support_rows
 from .plates import PlateModel, freedoms_of
 
 __all__ = ["Shell"]
@@ -53,7 +53,7 @@ class Shell(PlateModel):
                 remedy="It lies off the deck",
             )
             errors.number(f"pads[{i}].length", pad.length, above=0.0, unit="m")
-        free = free_count(self._held, self.nodes, end - start)
+        free = free_motion_count(self._support_rows, self.nodes, end - start)
         if free:
             given = [(p.x, " ".join((*p.fixed, *p.stiffness))) for p in self.pads]
             raise InputError(
@@ -62,18 +62,18 @@ class Shell(PlateModel):
             )  # fmt: skip
 
     @cached_property
-    def _held(self) -> list[tuple[csr_array, float]]:
-        return held(self.pads, self.stations, len(self.points), 6 * len(self.nodes))
+    def _support_rows(self) -> list[tuple[csr_array, float]]:
+        return support_rows(self.pads, self.stations, len(self.points), 6 * len(self.nodes))
 
     @cached_property
     def _turn(self) -> tuple[csr_array, np.ndarray]:
-        return elimination(self._held, 6 * len(self.nodes))
+        return elimination(self._support_rows, 6 * len(self.nodes))
 
     @cached_property
     def _reduced(self) -> tuple[csc_array, csc_array]:
         """K and M with the bearings, over the freedoms that are left."""
         k, m = self.matrices
-        for row, stiffness in self._held:
+        for row, stiffness in self._support_rows:
             if np.isfinite(stiffness):
                 k = k + stiffness * (row.T @ row)
         turn, _ = self._turn
@@ -116,7 +116,7 @@ class Shell(PlateModel):
         moved = turn @ vectors.reshape(-1, vectors.shape[-1])[left]
         k = sum(
             stiffness * (row @ moved).ravel() ** 2
-            for row, stiffness in self._held
+            for row, stiffness in self._support_rows
             if np.isfinite(stiffness)
         )
         m = self._point_inertia @ moved**2

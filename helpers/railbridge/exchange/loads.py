@@ -40,13 +40,13 @@ class Run(Protocol):
     coupling : Coupling
     passes : sequence
         Wheel forces of every pass, each as `Coupling.station_loads` takes them.
-    shown : int
+    iteration : int
         The pass whose loads are wanted.
     """
 
     coupling: Coupling
     passes: Sequence[Any]
-    shown: int
+    iteration: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +125,7 @@ def nodal_loads(run: Run, line: RailLine | None = None, couples: bool | None = N
         raise InputError("line", line.length, allowed, "Choose nodes from end to end of the deck")
     couples = not line.paired if couples is None else errors.boolean("couples", couples)
     axis = np.zeros((len(line.x), 5, len(coupling.time)))
-    loads = coupling.station_loads(run.passes[run.shown])
+    loads = coupling.station_loads(run.passes[run.iteration])
     for delay, start, load in zip(coupling.load_delays, coupling.loads.starts, loads, strict=True):
         samples = np.arange(start, start + load.shape[1])
         x = np.clip(coupling.settings.speed * coupling.time[samples] - delay, 0.0, line.length)

@@ -78,7 +78,7 @@ class Staggered:
     felt: DeckState | None = None
 
     @property
-    def shown(self) -> int:
+    def iteration(self) -> int:
         """The number of the last pass."""
         return len(self.passes) - 1
 
