@@ -321,6 +321,19 @@ def test_springs_in_the_axis_only_lift_the_whole_deck():
     )
 
 
+def test_a_spring_does_nothing_where_the_deck_is_rigid():
+    springs = {"x": 6e9, "y": 6e9, "roll": 1e9, "yaw": 1e9}
+    ends = rb.Bearing(0.0, ("z",), stiffness=springs), rb.Bearing(L, ("z",), stiffness=springs)
+    plane = rb.Beam("b", (L,), M, EI, bearings=ends)
+    assert plane.modes.frequencies_hz == pytest.approx(
+        rb.Beam("b", (L,), M, EI).modes.frequencies_hz
+    )
+    recovery = plane.deck(3).recovery
+    assert [recovery.bearing(1, q) for q in ("force_x", "force_y", "moment_x", "moment_z")] == [
+        None
+    ] * 4
+
+
 def test_overhangs_tip_as_in_the_book():
     a, span = 6.0, 24.0
     beam = deck_on(rb.Bearing(a, (*USUAL, "x")), rb.Bearing(a + span, USUAL))

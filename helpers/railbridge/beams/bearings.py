@@ -215,7 +215,8 @@ def free_motions(
         section = _rigid_motions(bearing.x)
         for freedom in bearing.held:
             row = bearing.row(freedom, centroid)
-            if freedom in bearing.stiffness:
+            # What the beam has no stiffness for does not move: a spring there holds nothing.
+            if freedom in bearing.stiffness and freedom in reference:
                 row *= min(1.0, bearing.stiffness[freedom] / reference[freedom])
             # Everything as a length: a turn by the shift that it makes over the deck's length.
             row *= 1.0 if freedom in "xyz" else length
