@@ -260,7 +260,7 @@ def add_load(total, place, mesh, x, force, couple):
     e = min(int(np.searchsorted(mesh.nodes, x, side="right")) - 1, len(mesh.h) - 1)
     powers = ((x - mesh.nodes[e]) / mesh.h[e]) ** np.arange(4)
     for name, value in (("vertical", force), ("torsion", couple)):
-        total[place[mesh.freedoms[name][e]]] += value * (powers @ mesh.shape_matrix(name, e))
+        total[place[mesh.freedoms[name][e]]] += value * (powers @ mesh.shapes[name][e])
 
 
 @few(3)

@@ -1,5 +1,8 @@
 """Beams against textbook beams: frequencies, influence lines, reactions, what holds a deck up."""
 
+import inspect
+from dataclasses import fields, replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,6 +10,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 import railbridge as rb
+from railbridge.beams import Section
 
 L, M, EI, EIZ, GJ, INERTIA = 36.0, 12e3, 8.93e10, 8.9e11, 8.15e10, 7.02e4
 SIMPLE = rb.Beam("simple", (L,), M, EI, EIZ, GJ, polar_inertia=INERTIA)
@@ -250,6 +254,59 @@ def test_section_file_and_stiffnesses_make_the_same_deck():
     shipped = rb.deck("viaduct36")
     assert stiff.frequencies_hz == pytest.approx(shipped.frequencies_hz, rel=1e-12)
     assert stiff.damping_ratios == pytest.approx(shipped.damping_ratios, rel=1e-12)
+
+
+CONCRETE = Section(35e9, 0.2, 2500.0, 4.8, 2.553, 25.53, 5.59, shear_area_vertical=1.2)
+
+
+def test_a_section_says_what_a_beam_needs():
+    g = 35e9 / 2.4
+    expected = {
+        "mass": 12e3, "bending_stiffness_vertical": 35e9 * 2.553, "axial_stiffness": 35e9 * 4.8,
+        "bending_stiffness_lateral": 35e9 * 25.53, "torsional_stiffness": g * 5.59,
+        "polar_inertia": 2500 * 28.083, "shear_stiffness_vertical": g * 1.2,
+    }  # fmt: skip
+    assert CONCRETE.of_beam() == pytest.approx(expected, rel=1e-12)
+    turning = {"rotary_inertia_vertical": 2500 * 2.553, "rotary_inertia_lateral": 2500 * 25.53}
+    assert CONCRETE.of_beam(rotary_inertia=True) == pytest.approx(expected | turning, rel=1e-12)
+    beam = rb.Beam("b", (L,), **CONCRETE.of_beam(True))
+    assert beam.fields == ("axial", "lateral", "vertical", "torsion")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"poisson_ratio": 0.6}, r"^poisson_ratio = 0.6: must be .* above -1 and at most 0.5\."),
+        ({"area": 0.0}, r"^area = 0.0: must be a finite number above 0 m2\."),
+        ({"shear_area_lateral": -1.0}, r"^shear_area_lateral = -1.0: .* above 0 m2\."),
+    ],
+)
+def test_wrong_sections_are_refused(wrong, message):
+    with pytest.raises(rb.InputError, match=message):
+        replace(CONCRETE, **wrong)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"name": ""}, r"^name = ''"),
+        ({"spans": ()}, r"^spans = \[\]: must hold 1 to 30 spans"),
+        ({"spans": (20.0, -1.0)}, r"^spans\[2\] = -1.0: must be a finite number above 0 m\."),
+        ({"mass": 0.0}, r"^mass = 0.0: must be a finite number above 0 kg/m\."),
+        ({"torsional_stiffness": None}, r"^torsional_stiffness: is missing\. Twist needs"),
+        ({"elements": 1}, r"^elements = 1: must be .* at least 2 and at most 400"),
+    ],
+)
+def test_a_beam_names_its_own_arguments(wrong, message):
+    with pytest.raises(rb.InputError, match=message):
+        replace(SIMPLE, **wrong)
+
+
+def test_help_on_a_beam_says_what_every_field_means():
+    attributes = inspect.getdoc(rb.Beam).split("Attributes\n")[1].split("Raises\n")[0]
+    assert [line.split(" : ")[0] for line in attributes.splitlines() if " : " in line] == [
+        field.name for field in fields(rb.Beam)
+    ]
 
 
 @pytest.mark.parametrize("short", [0.065, 0.1, 0.2])

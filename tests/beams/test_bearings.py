@@ -321,6 +321,19 @@ def test_springs_in_the_axis_only_lift_the_whole_deck():
     )
 
 
+def test_a_spring_does_nothing_where_the_deck_is_rigid():
+    springs = {"x": 6e9, "y": 6e9, "roll": 1e9, "yaw": 1e9}
+    ends = rb.Bearing(0.0, ("z",), stiffness=springs), rb.Bearing(L, ("z",), stiffness=springs)
+    plane = rb.Beam("b", (L,), M, EI, bearings=ends)
+    assert plane.modes.frequencies_hz == pytest.approx(
+        rb.Beam("b", (L,), M, EI).modes.frequencies_hz
+    )
+    recovery = plane.deck(3).recovery
+    assert [recovery.bearing(1, q) for q in ("force_x", "force_y", "moment_x", "moment_z")] == [
+        None
+    ] * 4
+
+
 def test_overhangs_tip_as_in_the_book():
     a, span = 6.0, 24.0
     beam = deck_on(rb.Bearing(a, (*USUAL, "x")), rb.Bearing(a + span, USUAL))
@@ -363,6 +376,8 @@ def test_two_bearings_carry_an_eccentric_load_by_the_lever_and_one_lifts():
     near, far = p * (1 - x / L) * (half + e) / (2 * half), p * (1 - x / L) * (half - e) / (2 * half)
     assert values[:2] == pytest.approx([near, far], rel=1e-9)
     assert far < 0 and sum(values) == pytest.approx(p, rel=1e-9)
+    with pytest.raises(rb.InputError, match=r"^number = 5: must be .* at most 4"):
+        deck.recovery.bearing(5, "force_z")
     run = rb.cross(rb.AxleTrain([0.0], [p]), deck, speed=20.0, track_offset=e, time_step=5e-3)
     forces, lines = run.bearing_forces(), run.reactions()
     assert list(forces) == [1, 2, 3, 4] and "y = -1.5" in forces[2].where
@@ -478,6 +493,10 @@ def test_bearings_of_simple_spans_may_be_told_apart():
         "row", (20.0, 30.0), M, EI, bearings=bearings(rb.Bearing(20.0, ("z",))), continuous=False
     )
     assert [b.span for b in shared.bearings] == [1, 1, 2, 2]
+    # The given list is counted, not the bearings that it makes.
+    twice = bearings(rb.Bearing(20.0, USUAL), rb.Bearing(20.0, USUAL, span=2))
+    with pytest.raises(rb.InputError, match=r"^bearings\[3\]\.x = 20.0: is given to two bearings"):
+        rb.Beam("row", (20.0, 30.0), M, EI, bearings=twice, continuous=False)
     with pytest.raises(rb.InputError, match="span 2 from sliding along x"):
         rb.Beam(
             "row",
@@ -500,9 +519,7 @@ def test_bearings_of_simple_spans_may_be_told_apart():
             bearings=bearings(rb.Bearing(20.0, span=3)),
             continuous=False,
         )
-    with pytest.raises(
-        rb.InputError, match=r"bearings\[2\]\.span = 1: can only be told of simple spans"
-    ):
+    with pytest.raises(rb.InputError, match=r"bearings\[2\]\.span = 1: is only for simple spans"):
         rb.Beam("row", (20.0, 30.0), M, EI, bearings=bearings(rb.Bearing(20.0, span=1)))
 
 
@@ -552,7 +569,7 @@ def test_two_bearings_abreast_keep_the_deck_from_rolling_and_a_lengthwise_pair_f
         ({"z": float("nan")}, r"^z = nan"),
         ({"x": "end"}, r"^x = 'end'"),
         ({"fixed": ("up",)}, r"^fixed = 'up'"),
-        ({"fixed": 3}, r"^fixed = 3: must list some of x y z"),
+        ({"fixed": 3}, r"^fixed = 3: must list some of x y z .* Write them as a list"),
         ({"fixed": ("z",), "stiffness": {"z": 1e9}}, r"^stiffness.z = 1000000000.0: is fixed, too"),
         ({"stiffness": {"z": 0.0}}, r"^stiffness.z = 0"),
         ({"stiffness": {"z": 1e20}}, r"^stiffness.z = 1e\+20"),
@@ -570,15 +587,16 @@ def test_bad_bearings_are_refused(bearing, message):
 def test_a_bearing_beside_the_axis_asks_for_the_stiffness_it_needs():
     """Else it would clamp the deck's turning: the deck could not give lengthwise or sideways."""
     low = rb.Bearing(0.0, ("x", "z"), z=-1.0), rb.Bearing(L, ("z",), z=-1.0)
-    with pytest.raises(
-        rb.InputError, match=r"bearings\[1\]\.x: is held beside .* pitch .* Give axial_stiffness"
-    ):
+    says = r"^bearings\[1\]\.fixed = 'x z': holds x off .* could not pitch\. Give axial_stiffness"
+    with pytest.raises(rb.InputError, match=says):
         rb.Beam("b", (L,), M, EI, bearings=low)
+    soft = rb.Bearing(L, ("z",), z=-1.0, stiffness={"x": 5e8})
+    says = r"^bearings\[2\]\.stiffness\.x = 500000000.0: holds x off .* could not pitch\."
+    with pytest.raises(rb.InputError, match=says):
+        rb.Beam("b", (L,), M, EI, bearings=(rb.Bearing(0.0, ("x", "z")), soft))
     side = rb.Bearing(0.0, USUAL, z=-1.0), rb.Bearing(L, USUAL, z=-1.0)
-    with pytest.raises(
-        rb.InputError,
-        match=r"bearings\[1\]\.y: is held beside .* roll .* Give bending_stiffness_lateral",
-    ):
+    says = r"^bearings\[1\]\.fixed = .* holds y .* not roll\. Give bending_stiffness_lateral"
+    with pytest.raises(rb.InputError, match=says):
         rb.Beam("b", (L,), M, EI, torsional_stiffness=GJ, polar_inertia=INERTIA, bearings=side)
     # Without twist a bearing may stand anywhere below a plane beam.
     plane = rb.Beam(
@@ -618,5 +636,10 @@ def test_a_bearing_stands_on_the_end_it_misses_by_rounding():
     ends = np.array([0.0, 12.0, 36.0])
     assert [on_deck(x, ends) for x in (-1e-9, 12.0 + 1e-9, 36.0 + 3e-5)] == [0.0, 12.0, 36.0]
     assert on_deck(12.001, ends) == 12.001
-    with pytest.raises(rb.InputError, match="^x = 37.0: .*It must lie on the deck"):
+    for wrong in ("far", float("nan"), -0.01):
+        with pytest.raises(rb.InputError, match="^x = .* It must lie on the deck"):
+            on_deck(wrong, ends)
+    with pytest.raises(
+        rb.InputError, match="^x = 37.0: .* least 0 and at most 36 m. It must lie on"
+    ):
         on_deck(37.0, ends)

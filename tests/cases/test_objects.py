@@ -147,7 +147,7 @@ def test_spans_that_do_not_run_through():
         ),
         (
             {"bearing": [{"x": 0.0, "fixed": "z", "span": 1}]},
-            r"bearing\[1\]\.span = 1: can only be told of simple spans",
+            r"bearing\[1\]\.span = 1: is only for simple spans",
         ),
         ({"continuous": "no"}, r"continuous = 'no': must be true or false"),
         ({"rotary_inertia": 3.0}, r"rotary_inertia = 3.0: must be true or false"),

@@ -1,4 +1,4 @@
-"""Beams in three dimensions: from data to a mesh, its modes, and a `Deck`."""
+"""Beams in three dimensions: from their properties to a mesh, its modes, and a `Deck`."""
 
 from __future__ import annotations
 
@@ -18,23 +18,22 @@ __all__ = ["Beam"]
 
 
 @dataclass(frozen=True)
-class Beam(BeamProperties):
-    """A uniform deck on bearings.
-
-    What it consists of, and what is refused, is said of `BeamProperties`.
-    """
+class Beam(BeamProperties):  # noqa: D101
+    # What its fields mean is written once, and read by whoever asks for help on a beam.
+    __doc__ = BeamProperties.__doc__
 
     @cached_property
     def mesh(self) -> Mesh:
         """The finite-element mesh of modes and histories."""
         wanted = self.elements or 40
-        nodes = [self._lines[:1]]
-        for a, b in zip(self._lines[:-1], self._lines[1:], strict=True):
-            share = (b - a) / self.length
+        required = self.required_nodes
+        edges = [required[:1]]
+        for start, end in zip(required[:-1], required[1:], strict=True):
+            share = (end - start) / self.length
             # Very short elements among long ones would cost the lowest modes their digits.
             least = 12 if self.elements is None and share > 0.01 else 2
-            nodes.append(np.linspace(a, b, max(least, round(wanted * share)) + 1)[1:])
-        return Mesh(self, np.concatenate(nodes))
+            edges.append(np.linspace(start, end, max(least, round(wanted * share)) + 1)[1:])
+        return Mesh(self, np.concatenate(edges))
 
     @cached_property
     def modes(self) -> BeamModes:
@@ -59,30 +58,32 @@ class Beam(BeamProperties):
         Parameters
         ----------
         modes : int
-        damping : (alpha, beta) of Rayleigh, or one ratio for every mode
+            How many.
+        damping : tuple of float, or float
+            (alpha, beta) of Rayleigh, 1/s and s; or one ratio for every mode.
         tracks, width, track_height
             See `Deck`.
+
+        Raises
+        ------
+        InputError
+            More modes than the mesh has, or no damping.
         """
         wanted = errors.integer("modes", modes, least=1)
         damping = checked_damping(damping)
-        found = self.modes if self.mesh.size <= DENSE else self.mesh.modes(wanted)
-        excitable = np.flatnonzero(found.excitable).tolist()
+        natural = self.modes if self.mesh.size <= DENSE else self.mesh.modes(wanted)
+        excitable = np.flatnonzero(natural.excitable).tolist()
         if wanted > len(excitable):
-            raise InputError(
-                "modes",
-                modes,
-                f"the mesh has {len(excitable)} modes that loads excite",
-                "Use more elements",
-            )
+            allowed = f"the mesh has {len(excitable)} modes that loads excite"
+            raise InputError("modes", modes, allowed, "Use more elements")
         kept = excitable[:wanted]
-        frequencies, vectors = found.frequencies_hz[kept], found.vectors[:, kept]
-        ratios = damping_ratios(damping, frequencies)
+        frequencies, vectors = natural.frequencies_hz[kept], natural.vectors[:, kept]
         return Deck(
             name=self.name,
             length=self.length,
             frequencies_hz=frequencies,
-            damping_ratios=ratios,
-            mode_names=tuple(found.names[i] for i in kept),
+            damping_ratios=damping_ratios(damping, frequencies),
+            mode_names=tuple(natural.names[i] for i in kept),
             shapes=self.mesh.interpolate(vectors),
             supports=tuple(sorted({b.x for b in self.bearings})),
             bearings=tuple((b.x, b.y, b.z) for b in self.bearings),

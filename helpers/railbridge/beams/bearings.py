@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -29,12 +29,12 @@ FARTHEST = 50.0
 _FROM_AXIS = Range(
     least=-FARTHEST, most=FARTHEST, unit="m", remedy="It is counted from the deck axis, in m"
 )
+_SPRING_REMEDY = "Put what does not give into fixed"
 STIFFEST = 1e16
 """N/m and N m/rad: beyond this a spring would cost the modes their digits."""
 _TINY = 1e-9
 _SLACK = 1e-6
-"""Share of the deck's length by which a bearing may miss the end of a span and still stands on it:
-rounding."""
+"""Share of the deck's length by which a bearing may miss the end of a span: rounding."""
 
 
 @dataclass(frozen=True)
@@ -74,25 +74,17 @@ class Bearing:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        springs, fixed = errors.table("stiffness", self.stiffness), self.fixed
+        springs = _checked_springs(self.stiffness)
+        fixed = self.fixed
         if fixed is None:
             fixed = () if springs else ("y", "z", "roll")
-        if isinstance(fixed, str):
-            fixed = fixed.split()
-        if not isinstance(fixed, (list, tuple)):
-            allowed = "must list some of " + " ".join(FIXITIES)
-            raise InputError("fixed", fixed, allowed)
-        for name in fixed:
-            errors.choice("fixed", name, FIXITIES)
-        for name, value in springs.items():
-            errors.choice("stiffness", name, FIXITIES)
-            unit = "N/m" if name in "xyz" else "N m/rad"
-            remedy = "Put what does not give into fixed"
-            limits = {"above": 0.0, "most": STIFFEST, "unit": unit, "remedy": remedy}
-            errors.number(f"stiffness.{name}", value, **limits)
+        fixed = _checked_freedoms(fixed)
+        for name in springs:
             if name in fixed:
-                raise InputError(f"stiffness.{name}", value, "is fixed, too", "Give one of both")
-        object.__setattr__(self, "fixed", tuple(fixed))
+                path, both = f"stiffness.{name}", "is fixed, too"
+                raise InputError(path, self.stiffness[name], both, "Give one of both")
+        object.__setattr__(self, "fixed", fixed)
+        object.__setattr__(self, "stiffness", springs)
 
     @property
     def restrained(self) -> tuple[str, ...]:
@@ -116,6 +108,28 @@ class Bearing:
         }[freedom]
 
 
+def _checked_freedoms(fixed: Any) -> tuple[str, ...]:
+    """Return freedoms given as a list or as one text, or refuse them."""
+    names = fixed.split() if isinstance(fixed, str) else fixed
+    if not isinstance(names, (list, tuple)):
+        remedy = "Write them as a list, or as one text between quotes"
+        raise InputError("fixed", fixed, "must list some of " + " ".join(FIXITIES), remedy)
+    for name in names:
+        errors.choice("fixed", name, FIXITIES)
+    return tuple(names)
+
+
+def _checked_springs(stiffness: Any) -> dict[str, float]:
+    """Return stiffnesses by freedom, N/m and N m/rad, or refuse them."""
+    springs = errors.table("stiffness", stiffness)
+    for name, value in springs.items():
+        errors.choice("stiffness", name, FIXITIES)
+        unit = "N/m" if name in "xyz" else "N m/rad"
+        limits = Range(above=0.0, most=STIFFEST, unit=unit, remedy=_SPRING_REMEDY)
+        springs[name] = limits.checked(f"stiffness.{name}", value)
+    return springs
+
+
 def on_deck(x: float, ends: np.ndarray) -> float:
     """Return the place of a bearing (m): x, or the end of a span that x misses by rounding only.
 
@@ -131,11 +145,12 @@ def on_deck(x: float, ends: np.ndarray) -> float:
     InputError
         Off the deck.
     """
-    slack = _SLACK * float(ends[-1])
-    remedy = "It must lie on the deck, x runs along it from its start"
-    x = errors.number("x", x, least=-slack, most=float(ends[-1]) + slack, unit="m", remedy=remedy)
+    length, remedy = float(ends[-1]), "It must lie on the deck, x runs along it from its start"
+    x = errors.number("x", x, unit="m", remedy=remedy)
     nearest = float(ends[np.argmin(np.abs(ends - x))])
-    return nearest if abs(nearest - x) <= slack else x
+    if abs(nearest - x) <= _SLACK * length:
+        return nearest
+    return errors.number("x", x, least=0.0, most=length, unit="m", remedy=remedy)
 
 
 def null_space(rows: np.ndarray) -> np.ndarray:
@@ -144,32 +159,31 @@ def null_space(rows: np.ndarray) -> np.ndarray:
     By elimination from the left, so that freedoms which no row couples stay themselves. Rows that
     say nothing new, as two bearings on one section that both hold y, are passed over.
     """
-    a = np.array(rows, dtype=float)
-    count = a.shape[1]
+    reduced = np.array(rows, dtype=float)
+    count = reduced.shape[1]
     pivots: list[int] = []
     for column in range(count):
-        below = np.abs(a[len(pivots) :, column])
+        row = len(pivots)
+        below = np.abs(reduced[row:, column])
         if len(below) == 0 or below.max() < _TINY:
             continue
-        best, here = len(pivots) + int(np.argmax(below)), len(pivots)
-        a[[here, best]] = a[[best, here]]
-        a[here] /= a[here, column]
-        others = np.arange(len(a)) != here
-        a[others] -= a[others, column][:, None] * a[here]
-        a[np.abs(a) < _TINY] = 0.0
+        largest = row + int(np.argmax(below))
+        reduced[[row, largest]] = reduced[[largest, row]]
+        reduced[row] /= reduced[row, column]
+        others = np.arange(len(reduced)) != row
+        reduced[others] -= reduced[others, column][:, None] * reduced[row]
+        reduced[np.abs(reduced) < _TINY] = 0.0
         pivots.append(column)
     free = [c for c in range(count) if c not in pivots]
     result = np.zeros((count, len(free)))
     result[free, np.arange(len(free))] = 1.0
-    result[pivots] = -a[: len(pivots)][:, free]
+    result[pivots] = -reduced[: len(pivots)][:, free]
     return result
 
 
-_MOTIONS = {
-    # what it is called: the field it belongs to
-    "sliding along x": "axial", "moving along y": "lateral", "moving along z": "vertical",
-    "rolling": "torsion", "pitching": "vertical", "yawing": "lateral",
-}  # fmt: skip
+_SHIFTS = {"sliding along x": "axial", "moving along y": "lateral", "moving along z": "vertical"}
+_TURNS = {"rolling": "torsion", "pitching": "vertical", "yawing": "lateral"}
+"""Rigid-body motions in words, and the field that each belongs to."""
 
 
 def free_motions(
@@ -179,9 +193,7 @@ def free_motions(
     centroid: float,
     reference: Mapping[str, float],
 ) -> list[str]:
-    """Return in words the rigid-body motions that the bearings leave free.
-
-    Empty when the piece is held.
+    """Return in words the rigid-body motions that the bearings leave free, none if it is held.
 
     Parameters
     ----------
@@ -197,37 +209,37 @@ def free_motions(
         For each freedom, the stiffness below which a spring counts less than a rigid bearing: far
         below it, nothing.
     """
-    motions = [m for m, f in _MOTIONS.items() if f in fields]
+    motions = [m for m, f in {**_SHIFTS, **_TURNS}.items() if f in fields]
     rows = []
-    for b in bearings:
-        s = b.x / length
-        section = {  # u, v, w, theta_x, theta_z, -theta_y of the section at x
-            "sliding along x": [1, 0, 0, 0, 0, 0],
-            "moving along y": [0, 1, 0, 0, 0, 0],
-            "moving along z": [0, 0, 1, 0, 0, 0],
-            "rolling": [0, 0, 0, 1, 0, 0],
-            "pitching": [0, 0, s * length, 0, 0, 1],
-            "yawing": [0, s * length, 0, 0, 1, 0],
-        }
-        for name in b.restrained:
-            weight = min(1.0, b.stiffness[name] / reference[name]) if name in b.stiffness else 1.0
-            row = weight * b.row(name, centroid)
-            scale = 1.0 if name in "xyz" else length
-            rows.append(
-                [
-                    scale * row @ section[m] / (1.0 if m.startswith(("slid", "mov")) else length)
-                    for m in motions
-                ]
-            )
+    for bearing in bearings:
+        section = _rigid_motions(bearing.x)
+        for freedom in bearing.restrained:
+            row = bearing.row(freedom, centroid)
+            # What the beam has no stiffness for does not move: a spring there holds nothing.
+            if freedom in bearing.stiffness and freedom in reference:
+                row *= min(1.0, bearing.stiffness[freedom] / reference[freedom])
+            # Everything as a length: a turn by the shift that it makes over the deck's length.
+            row *= 1.0 if freedom in "xyz" else length
+            rows.append([row @ section[m] / (length if m in _TURNS else 1.0) for m in motions])
     rows = np.array(rows).reshape(-1, len(motions))
     _, sizes, directions = np.linalg.svd(rows)
     rank = int(np.sum(sizes > 1e-6 * max(sizes.max(initial=0.0), 1e-300)))
-    loose = directions[rank:]
-    found = []
-    for j, motion in enumerate(motions):
-        moves = motion.startswith(("slid", "mov"))
-        # A turn is free if it takes part in any free motion (its axis may lie anywhere), a shift
-        # only if it is free by itself.
-        if (not rows[:, j].any()) if moves else (np.linalg.norm(loose[:, j]) > 1e-6):
-            found.append(motion)
-    return found if rank < len(motions) else []
+    if rank == len(motions):
+        return []
+    # A turn is free if it takes part in any free motion (its axis may lie anywhere), a shift only
+    # if it is free by itself.
+    shares = np.linalg.norm(directions[rank:], axis=0)
+    free = np.where([m in _TURNS for m in motions], shares > 1e-6, ~rows.any(axis=0))
+    return [motion for motion, is_free in zip(motions, free, strict=True) if is_free]
+
+
+def _rigid_motions(x: float) -> dict[str, list[float]]:
+    """Return u, v, w, theta_x, theta_z, -theta_y of the section at x (m) in each unit motion."""
+    return {
+        "sliding along x": [1, 0, 0, 0, 0, 0],
+        "moving along y": [0, 1, 0, 0, 0, 0],
+        "moving along z": [0, 0, 1, 0, 0, 0],
+        "rolling": [0, 0, 0, 1, 0, 0],
+        "pitching": [0, 0, x, 0, 0, 1],
+        "yawing": [0, x, 0, 0, 1, 0],
+    }

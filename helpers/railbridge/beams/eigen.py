@@ -50,19 +50,15 @@ def lowest(k: csc_array, m: csc_array, count: int) -> tuple[np.ndarray, np.ndarr
 
 
 def count_below(k: csc_array, m: csc_array, square: float) -> int | None:
-    """Return how many modes lie below omega^2 = `square` (Sylvester.
+    """Return how many modes lie below omega^2 = `square`.
 
-    Negative pivots of K - omega^2 M).
-
-    None where the factorisation had to leave the diagonal, so that the signs of its pivots say
-    nothing.
+    By Sylvester's law of inertia: as many as K - omega^2 M has negative pivots. None where the
+    factorisation had to leave the diagonal, so that the signs of its pivots say nothing.
     """
     try:
         factor = factorised(k - square * m)
     except RuntimeError:  # singular: `square` is a mode
         return None
-    return (
-        int(np.sum(factor.U.diagonal() < 0.0))
-        if np.array_equal(factor.perm_r, factor.perm_c)
-        else None
-    )
+    if not np.array_equal(factor.perm_r, factor.perm_c):
+        return None
+    return int(np.sum(factor.U.diagonal() < 0.0))

@@ -22,16 +22,13 @@ from __future__ import annotations
 import numpy as np
 
 __all__ = [
-    "BENDING",
-    "FIELDS",
-    "POWERS",
-    "coupling",
-    "matrices",
-    "rotation_powers",
+    "BENDING", "FIELDS", "POWERS", "SHAPE_FIELDS", "coupling", "matrices", "rotation_powers",
     "shape_matrices",
-]
+]  # fmt: skip
 
 FIELDS = ("axial", "lateral", "vertical", "torsion")
+SHAPE_FIELDS = ("lateral", "vertical", "torsion")
+"""Fields that a deck's shapes consist of, in the order of `COMPONENTS`."""
 BENDING = ("lateral", "vertical")
 _QUADRATIC = np.array([[1, 0, 0], [-3, 4, -1], [2, -4, 2], [0, 0, 0]], dtype=float)
 

@@ -13,8 +13,11 @@ jump of the shear strain, while psi stays smooth.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
 from math import comb
+from typing import Any
 
 import numpy as np
 
@@ -22,28 +25,61 @@ from .. import errors
 from ..decks import BEARING_QUANTITIES, REACTION_QUANTITIES, SECTION_QUANTITIES, Line
 from ..guideways import PiecewiseCubic
 from ..units import G
-from .elements import BENDING, rotation_powers
+from .elements import BENDING, SHAPE_FIELDS, rotation_powers
 from .mesh import Mesh
 
 __all__ = ["BeamRecovery"]
 
+_FIELD_OF = {
+    "displacement_y": "lateral", "displacement_z": "vertical", "rotation_x": "torsion",
+    "moment_vertical": "vertical", "moment_lateral": "lateral", "torsion": "torsion",
+    "shear_vertical": "vertical", "shear_lateral": "lateral",
+}  # fmt: skip
 _CONJUGATE = {
-    # quantity: field, derivative that jumps, sign
-    "moment_vertical": ("vertical", 1, -1.0),
-    "moment_lateral": ("lateral", 1, 1.0),
-    "torsion": ("torsion", 0, 1.0),
-    "shear_vertical": ("vertical", 0, 1.0),
-    "shear_lateral": ("lateral", 0, 1.0),
+    # section force: derivative of the field that jumps, sign
+    "moment_vertical": (1, -1.0),
+    "moment_lateral": (1, 1.0),
+    "torsion": (0, 1.0),
+    "shear_vertical": (0, 1.0),
+    "shear_lateral": (0, 1.0),
 }
-_FIELD_OF = {"displacement_y": "lateral", "displacement_z": "vertical", "rotation_x": "torsion"}
-_HELD_BY = dict(zip(BEARING_QUANTITIES, ("x", "y", "z", "roll", "pitch", "yaw"), strict=True))
+_FREEDOM_OF = dict(zip(BEARING_QUANTITIES, ("x", "y", "z", "roll", "pitch", "yaw"), strict=True))
 _LINE_MOTION = {
+    # reaction: field, place of the conjugate motion among a node's freedoms
     "force_x": ("axial", 0),
     "force_y": ("lateral", 1),
     "force_z": ("vertical", 2),
     "moment_x": ("torsion", 3),
 }
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(5)
+
+
+@dataclass(frozen=True, eq=False)
+class _Jump:
+    """The function g of a section, zero before it, in the element that the section cuts.
+
+    Attributes
+    ----------
+    field : str
+    element : int
+        From 0.
+    place : float
+        Of the section in the element, 0..1.
+    behind, rotation : ndarray, shape (4,)
+        g and the rotation that goes with it, behind the section, as powers of (s - place).
+    nodal : ndarray, shape (4,) or (3,)
+        g as freedoms of the element.
+    interpolated : ndarray, shape (4,)
+        What the element makes of them, as powers of s.
+    """
+
+    field: str
+    element: int
+    place: float
+    behind: np.ndarray
+    rotation: np.ndarray
+    nodal: np.ndarray
+    interpolated: np.ndarray
 
 
 class BeamRecovery:
@@ -69,124 +105,191 @@ class BeamRecovery:
     def section(self, quantity: str, x: float) -> Line | None:
         """Return the line of a displacement or section force at x (m).
 
-        At an inner bearing the face just before it.
+        At an inner bearing it is that on the face just before it. None where the beam has no
+        stiffness for it.
         """
         errors.choice("quantity", quantity, SECTION_QUANTITIES)
         x = errors.number(
             "x", x, least=0.0, most=self.beam.length, unit="m", remedy="x runs along the deck"
         )
-        return self._cached((quantity, float(x)), self._section, quantity, x)
+        return self._cached((quantity, float(x)), self._section_line, quantity, x)
 
     def reaction(self, quantity: str, support: float) -> Line | None:
         """Return the line of a reaction on the deck at the bearing line `support` (m).
 
-        All bearings there, about the axis.
+        It is that of all bearings there, about the deck axis. None where none of them holds it.
         """
         errors.choice("quantity", quantity, REACTION_QUANTITIES)
-        return self._cached((quantity, float(support), "line"), self._reaction, quantity, support)
+        key = (quantity, float(support), "line")
+        return self._cached(key, self._reaction_line, quantity, support)
 
     def bearing(self, number: int, quantity: str) -> Line | None:
         """Return the line of the force or moment of one bearing (from 1) on the deck.
 
-        None where it holds no such freedom.
-
-        Rigid bearings on one section that share a force which statics alone does not split, as two
-        that both hold y, share it as equally stiff ones would.
+        None where it holds no such freedom. Where rigid bearings on one section share a force that
+        statics alone does not split, as two that both hold y do, each takes what equally stiff ones
+        would take.
         """
         errors.choice("quantity", quantity, BEARING_QUANTITIES)
-        index = errors.integer("bearing", number, least=1, most=len(self.beam.bearings)) - 1
-        return self._cached((quantity, index, "bearing"), self._bearing, index, _HELD_BY[quantity])
+        index = errors.integer("number", number, least=1, most=len(self.beam.bearings)) - 1
+        key = (quantity, index, "bearing")
+        return self._cached(key, self._bearing_line, index, _FREEDOM_OF[quantity])
 
-    def _cached(self, key: tuple, make, *arguments) -> Line | None:
+    def _cached(self, key: tuple, make: Callable[..., Line | None], *arguments: Any) -> Line | None:
         if key not in self._lines:
             self._lines[key] = make(*arguments)
         return self._lines[key]
 
-    def _section(self, quantity: str, x: float) -> Line | None:
-        name = _FIELD_OF.get(quantity) or _CONJUGATE[quantity][0]
-        if name not in self.beam.fields:
+    # ---- sections
+
+    def _section_line(self, quantity: str, x: float) -> Line | None:
+        if _FIELD_OF[quantity] not in self.beam.fields:
             return None
-        component = ("lateral", "vertical", "torsion").index(name)
-        mesh = self.mesh
+        jump = self._jump(quantity, x)
+        moved = self.mesh.solve(self._section_load(quantity, jump))
+        shape = self.mesh.interpolate(moved)
+        component = SHAPE_FIELDS.index(jump.field)
+        shape.coefficients[jump.element, :, 0, component] -= jump.interpolated
+        modal, weight = self._inertia_on(jump)
+        return self._line(moved, _with_jump(shape, jump), modal, weight)
+
+    def _jump(self, quantity: str, x: float) -> _Jump:
+        """Return what a section at x (m) adds inside the element that it cuts."""
+        name, mesh = _FIELD_OF[quantity], self.mesh
         e = max(int(np.searchsorted(mesh.edges, x - 1e-9 * self.beam.length)) - 1, 0)
         h = mesh.h[e]
-        cut = float(np.clip((x - mesh.edges[e]) / h, 0.0, 1.0))
-        jump, turn = self._jump(quantity, name, h)
+        place = float(np.clip((x - mesh.edges[e]) / h, 0.0, 1.0))
+        behind, rotation = self._behind(quantity, h)
         # Values of g and of its rotation at the element's end; the interpolation runs through them.
-        after = (1.0 - cut) ** np.arange(4)
-        end = jump @ after
-        nodal = np.array([0.0, 0.0, end, turn @ after] if name in BENDING else [0.0, end / 2, end])
-        load, dofs = np.zeros(mesh.size), mesh.freedoms[name][e]
-        if quantity in _CONJUGATE:
-            load[dofs] = mesh.fields[name][0][e] @ nodal
-        elif name in BENDING:
-            load[dofs] = cut ** np.arange(4) @ mesh.shape_matrix(name, e)
-        else:
-            load[dofs] = [1.0 - cut, 0.0, cut]
-        moved = mesh.solve(load)
-        shape = mesh.interpolate(moved)
-        taken_off = mesh.shape_matrix(name, e) @ nodal
-        shape.coefficients[e, :, 0, component] -= taken_off
-        modal, weight = self._own_inertia(name, e, cut, jump, turn, taken_off)
-        return self._line(moved, _cut(shape, e, cut, component, jump), modal, weight)
+        powers = (1.0 - place) ** np.arange(4)
+        end, turned = behind @ powers, rotation @ powers
+        nodal = np.array([0.0, 0.0, end, turned] if name in BENDING else [0.0, end / 2, end])
+        return _Jump(name, e, place, behind, rotation, nodal, mesh.shapes[name][e] @ nodal)
 
-    def _jump(self, quantity: str, name: str, h: float) -> tuple[np.ndarray, np.ndarray]:
-        """Return g and its rotation behind the section, as powers of (s - cut), each shape (4,)."""
-        jump, turn = np.zeros((2, 4))
-        if quantity in _CONJUGATE:
-            _, order, sign = _CONJUGATE[quantity]
-            jump[order] = sign * h**order
-            turn[0] = sign * order
-        elif name in BENDING:
-            stiffness = self.beam.stiffness_of(name)
-            jump[3] = h**3 / (6 * stiffness)
-            jump[1] = -h * self.beam.shear_flexibility(name) / stiffness
-            turn[2] = h**2 / (2 * stiffness)
-        else:
-            jump[1] = -h / self.beam.stiffness_of(name)
-        return jump, turn
+    def _behind(self, quantity: str, h: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return g and its rotation behind the section as powers of (s - place), shape (4,).
 
-    def _reaction(self, quantity: str, support: float) -> Line | None:
+        h is the element's length, m.
+        """
+        name, beam = _FIELD_OF[quantity], self.beam
+        behind, rotation = np.zeros((2, 4))
+        if quantity in _CONJUGATE:
+            order, sign = _CONJUGATE[quantity]
+            behind[order] = sign * h**order
+            rotation[0] = sign * order
+        elif name in BENDING:
+            stiffness = beam.stiffness_of(name)
+            behind[3] = h**3 / (6 * stiffness)
+            behind[1] = -h * beam.shear_flexibility(name) / stiffness
+            rotation[2] = h**2 / (2 * stiffness)
+        else:
+            behind[1] = -h / beam.stiffness_of(name)
+        return behind, rotation
+
+    def _section_load(self, quantity: str, jump: _Jump) -> np.ndarray:
+        """Return the nodal load of a unit jump, or of a unit load at the section."""
+        mesh, name, e = self.mesh, jump.field, jump.element
+        load, freedoms = np.zeros(mesh.size), mesh.freedoms[name][e]
+        if quantity in _CONJUGATE:
+            load[freedoms] = mesh.element_matrices[name][0][e] @ jump.nodal
+        elif name in BENDING:
+            load[freedoms] = jump.place ** np.arange(4) @ mesh.shapes[name][e]
+        else:
+            load[freedoms] = [1.0 - jump.place, 0.0, jump.place]
+        return load
+
+    def _inertia_on(self, jump: _Jump) -> tuple[np.ndarray, float]:
+        """Return the work that inertia does on g less its interpolation, inside the element.
+
+        The inertia of every mode, omega^2 m phi, shape (m,); and that of a unit vertical
+        acceleration.
+        """
+        mesh, name, e, place = self.mesh, jump.field, jump.element, jump.place
+        s = np.concatenate([place * (_POINTS + 1) / 2, place + (1.0 - place) * (_POINTS + 1) / 2])
+        dx = mesh.h[e] * np.concatenate([place * _WEIGHTS, (1.0 - place) * _WEIGHTS]) / 2
+        powers = s[:, None] ** np.arange(4)
+        after = np.where(s > place, s - place, 0.0)[:, None] ** np.arange(4)
+        after = after * (s > place)[:, None]
+        motion = after @ jump.behind - powers @ jump.interpolated
+        modal = (motion * dx) @ powers @ self._mass_times_shapes(name, e)
+        rotary = self.beam.rotary_inertia(name)
+        if rotary:
+            turn = rotation_powers(mesh.h[e : e + 1], mesh.phi[name][e : e + 1])[0]
+            rotation = after @ jump.rotation - powers @ (turn @ jump.interpolated)
+            shape = self._mode_shapes(name, e)
+            modal = modal + rotary * (rotation * dx) @ powers @ turn @ shape
+        weight = self.beam.mass * float(motion @ dx) if name == "vertical" else 0.0
+        return self._omega2 * modal, weight
+
+    def _mass_times_shapes(self, name: str, element: int) -> np.ndarray:
+        """Return mass times motion of every mode in a field's direction, shape (4, m).
+
+        As powers of the local coordinate; of the axis' motion with the mass at the centroid.
+        """
+        beam, z = self.beam, self.beam.centroid_height
+        if name == "vertical":
+            return beam.mass * self._mode_shapes("vertical", element)
+        sideways, twist = (self._mode_shapes(f, element) for f in ("lateral", "torsion"))
+        if name == "lateral":
+            return beam.mass * (sideways - z * twist)
+        return (beam.polar_inertia + beam.mass * z**2) * twist - beam.mass * z * sideways
+
+    def _mode_shapes(self, name: str, element: int) -> np.ndarray:
+        """Return one field of all modes in an element, powers of the local coordinate (4, m)."""
+        if name not in self.beam.fields:
+            return np.zeros((4, 1))
+        freedoms = self.mesh.freedoms[name][element]
+        return self.mesh.shapes[name][element] @ self._vectors[freedoms]
+
+    # ---- bearings
+
+    def _reaction_line(self, quantity: str, support: float) -> Line | None:
         mesh, (name, place) = self.mesh, _LINE_MOTION[quantity]
-        here = [b for b in self.beam.bearings if abs(b.x - support) < 1e-9 * self.beam.length]
-        # A couple about the axis is also held by forces beside it or below it.
-        holds = {
-            "moment_x": lambda b: (
-                "roll" in b.restrained
-                or ("z" in b.restrained and b.y != 0.0)
-                or ("y" in b.restrained and b.z != 0.0)
-            )
-        }
-        if name not in self.beam.fields or not any(
-            holds.get(quantity, lambda b: _HELD_BY[quantity] in b.restrained)(b) for b in here
-        ):
+        if name not in self.beam.fields or not self._is_held(quantity, support):
             return None
         ground = np.zeros(mesh.size)
-        ground[6 * mesh.line(support) + place] = 1.0
+        ground[6 * mesh.nodes_at(support) + place] = 1.0
         # With the ground of the whole line springs are not stretched by the motion of its nodes.
         moved = mesh.solve(mesh.matrices[0] @ ground) - ground
         return self._line(moved, mesh.interpolate(moved))
 
-    def _bearing(self, index: int, freedom: str) -> Line | None:
+    def _is_held(self, quantity: str, support: float) -> bool:
+        """Whether a bearing at `support` (m) takes part in a reaction about the deck axis."""
+        bearings = [b for b in self.beam.bearings if abs(b.x - support) < 1e-9 * self.beam.length]
+        if quantity != "moment_x":
+            return any(_FREEDOM_OF[quantity] in b.restrained for b in bearings)
+        # A couple about the axis is also held by forces beside it or below it.
+        return any(
+            "roll" in b.restrained
+            or ("z" in b.restrained and b.y != 0.0)
+            or ("y" in b.restrained and b.z != 0.0)
+            for b in bearings
+        )
+
+    def _bearing_line(self, index: int, freedom: str) -> Line | None:
         mesh, bearing = self.mesh, self.beam.bearings[index]
-        if freedom not in bearing.restrained or not np.any(mesh.row(index, freedom)):
+        row = mesh.bearing_row(index, freedom)
+        if freedom not in bearing.restrained or not np.any(row):
             return None
-        node, load = mesh.places[index], np.zeros(mesh.size)
-        here = slice(6 * node, 6 * node + 6)
+        node, load = mesh.bearing_nodes[index], np.zeros(mesh.size)
+        freedoms = slice(6 * node, 6 * node + 6)
         if freedom in bearing.stiffness:
-            load[here] = bearing.stiffness[freedom] * mesh.row(index, freedom)
+            load[freedoms] = bearing.stiffness[freedom] * row
             moved = -mesh.solve(load)
         else:
-            keys, rows = mesh.rigid_rows(node)
-            load[here] = np.linalg.pinv(rows)[:, keys.index((index, freedom))]
-            moved = mesh.solve(mesh.stiffness @ load) - load
+            rigid, rows = mesh.rigid_rows(node)
+            ground = np.zeros(mesh.size)
+            ground[freedoms] = np.linalg.pinv(rows)[:, rigid.index((index, freedom))]
+            moved = mesh.solve(mesh.stiffness @ ground) - ground
         return self._line(moved, mesh.interpolate(moved))
+
+    # ---- modal values
 
     @cached_property
     def _inertia(self) -> np.ndarray:
-        """Nodal loads of the modes' own inertia, omega^2 M phi.
+        """Nodal loads of the modes' own inertia, omega^2 M phi, shape (freedoms, m + 1).
 
-        The last are those of a unit vertical acceleration.
+        The last column is that of a unit vertical acceleration.
         """
         mesh = self.mesh
         lifted = np.zeros(mesh.size)
@@ -200,81 +303,40 @@ class BeamRecovery:
         modal: np.ndarray | float = 0.0,
         weight: float = 0.0,
     ) -> Line:
-        """Attach the modal values.
+        """Attach modal values and self-weight to an influence line.
 
-        The static effect of each mode's own inertia load, S_m = omega^2 int line m phi dx.
+        The modal value is the static effect of a mode's own inertia load,
+        S_m = omega^2 int line m phi dx.
 
-        `moved` is the influence line in nodal freedoms; `modal` and `weight` add what it lacks
-        inside one element.
+        Parameters
+        ----------
+        moved : ndarray, shape (freedoms,)
+            The influence line in nodal freedoms.
+        influence : PiecewiseCubic
+        modal, weight
+            What nodal freedoms lack inside one element.
         """
         total = moved @ self._inertia
         return Line(total[:-1] + modal, influence, float(-G * (total[-1] + weight)))
 
-    def _own_inertia(
-        self,
-        name: str,
-        e: int,
-        cut: float,
-        jump: np.ndarray,
-        turn: np.ndarray,
-        taken_off: np.ndarray,
-    ) -> tuple[np.ndarray, float]:
-        """Return the work of inertia on g less its interpolation in element e.
 
-        For every mode, and last for a unit vertical acceleration.
-        """
-        beam, mesh = self.beam, self.mesh
-        h = mesh.h[e]
-        s = np.concatenate([cut * (_POINTS + 1) / 2, cut + (1.0 - cut) * (_POINTS + 1) / 2])
-        dx = h * np.concatenate([cut * _WEIGHTS, (1.0 - cut) * _WEIGHTS]) / 2
-        powers = s[:, None] ** np.arange(4)
-        behind = np.where(s > cut, s - cut, 0.0)[:, None] ** np.arange(4) * (s > cut)[:, None]
-        own = behind @ jump - powers @ taken_off
-
-        def shape(other: str) -> np.ndarray:
-            return (
-                mesh.shape_matrix(other, e) @ self._vectors[mesh.freedoms[other][e]]
-                if other in beam.fields
-                else np.zeros((4, 1))
-            )
-
-        z = beam.centroid_height
-        if name == "torsion":
-            carried = (beam.polar_inertia + beam.mass * z**2) * shape(
-                "torsion"
-            ) - beam.mass * z * shape("lateral")
-        elif name == "lateral":
-            carried = beam.mass * (shape("lateral") - z * shape("torsion"))
-        else:
-            carried = beam.mass * shape("vertical")
-        modal = (own * dx) @ powers @ carried
-        if name in BENDING and beam.rotary_inertia(name):
-            turned = rotation_powers(mesh.h[e : e + 1], mesh.phi[name][e : e + 1])[0]
-            own_turn = behind @ turn - powers @ (turned @ taken_off)
-            modal = modal + beam.rotary_inertia(name) * (own_turn * dx) @ powers @ turned @ shape(
-                name
-            )
-        return self._omega2 * modal, beam.mass * float(own @ dx) if name == "vertical" else 0.0
-
-
-def _cut(
-    shape: PiecewiseCubic, e: int, cut: float, component: int, jump: np.ndarray
-) -> PiecewiseCubic:
-    """Cut element e at the local coordinate `cut`; add `jump`, powers of (s - cut), behind it."""
+def _with_jump(shape: PiecewiseCubic, jump: _Jump) -> PiecewiseCubic:
+    """Cut an element in two at the section, and add g behind it."""
+    e, place = jump.element, jump.place
     halves = []
-    for start, length in ((0.0, cut), (cut, 1.0 - cut)):
+    for start, length in ((0.0, place), (place, 1.0 - place)):
         # Powers of s = start + length t in powers of t.
-        turn = np.array(
-            [
-                [comb(k, j) * start ** (k - j) * length**j if k >= j else 0.0 for k in range(4)]
-                for j in range(4)
-            ]
-        )
-        halves.append(np.einsum("jk,knc->jnc", turn, shape.coefficients[e]))
-    halves[1][:, 0, component] += jump * (1.0 - cut) ** np.arange(4)
-    kept = [half for half, length in zip(halves, (cut, 1.0 - cut), strict=True) if length > 0.0]
-    inner = [shape.edges[e] + cut * (shape.edges[e + 1] - shape.edges[e])] if len(kept) == 2 else []
+        shifted = np.zeros((4, 4))
+        for j in range(4):
+            for k in range(j, 4):
+                shifted[j, k] = comb(k, j) * start ** (k - j) * length**j
+        halves.append(np.einsum("jk,knc->jnc", shifted, shape.coefficients[e]))
+    component = SHAPE_FIELDS.index(jump.field)
+    halves[1][:, 0, component] += jump.behind * (1.0 - place) ** np.arange(4)
+    kept = [half for half, length in zip(halves, (place, 1.0 - place), strict=True) if length > 0.0]
+    inner = []
+    if len(kept) == 2:
+        inner = [shape.edges[e] + place * (shape.edges[e + 1] - shape.edges[e])]
     edges = np.concatenate([shape.edges[: e + 1], inner, shape.edges[e + 1 :]])
-    return PiecewiseCubic(
-        edges, np.concatenate([shape.coefficients[:e], kept, shape.coefficients[e + 1 :]])
-    )
+    pieces = np.concatenate([shape.coefficients[:e], kept, shape.coefficients[e + 1 :]])
+    return PiecewiseCubic(edges, pieces)

@@ -25,17 +25,13 @@ from ..guideways import PiecewiseCubic
 from . import elements
 from .bearings import null_space
 from .eigen import count_below, factorised, lowest
-from .elements import FIELDS
+from .elements import FIELDS, SHAPE_FIELDS
 from .properties import BeamProperties
 
-__all__ = ["FIELDS", "BeamModes", "Mesh"]
+__all__ = ["DENSE", "BeamModes", "Mesh"]
 
-_PLACE = {
-    "axial": (0,),
-    "lateral": (1, 4),
-    "vertical": (2, 5),
-    "torsion": (3,),
-}  # of a field among a node's freedoms
+_NODE_FREEDOMS = {"axial": (0,), "lateral": (1, 4), "vertical": (2, 5), "torsion": (3,)}
+"""Where each field's freedoms stand among the six of a node."""
 _LABELS = {
     "axial": "axial",
     "lateral": "lateral bending",
@@ -93,8 +89,12 @@ class Mesh:
         Places of the nodes, m; two at each joint between simple spans.
     h : ndarray, shape (e,)
         Lengths, m.
-    freedoms : dict of ndarray, shape (e, 3 or 4)
-        Of each field of each element.
+    freedoms : dict of ndarray of int, shape (e, 3 or 4)
+        Of each field, those of every element.
+    phi : dict of ndarray, shape (e,)
+        Of each field, Phi of every element; see `elements`.
+    shapes : dict of ndarray, shape (e, 4, 3 or 4)
+        Of each field, T of every element: powers of the local coordinate from its freedoms.
     """
 
     def __init__(self, beam: BeamProperties, edges: np.ndarray) -> None:
@@ -102,7 +102,7 @@ class Mesh:
         self.h = np.diff(edges)
         count = len(self.h)
         starts_piece = np.isin(edges[:-1], beam.joints)
-        first = np.arange(count) + np.cumsum(starts_piece)
+        first = np.arange(count) + np.cumsum(starts_piece)  # the node at which each element starts
         self.nodes = np.insert(edges, np.flatnonzero(starts_piece), edges[:-1][starts_piece])
         self._pieces = np.zeros(len(self.nodes), dtype=int)
         self._pieces[first], self._pieces[first + 1] = (np.cumsum(starts_piece),) * 2
@@ -132,17 +132,13 @@ class Mesh:
             distance = np.where(self._pieces == piece, distance, np.inf)
         return int(np.argmin(distance))
 
-    def line(self, x: float) -> np.ndarray:
-        """Return the nodes at x: one, or two at a joint."""
+    def nodes_at(self, x: float) -> np.ndarray:
+        """Return the nodes at x (m): one, or two at a joint."""
         return np.flatnonzero(np.abs(self.nodes - x) < 1e-9 * self.edges[-1])
 
-    def shape_matrix(self, name: str, element: int) -> np.ndarray:
-        """T: powers of the local coordinate from the element's freedoms, shape (4, 3 or 4)."""
-        return self.shapes[name][element]
-
     @cached_property
-    def fields(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Stiffness and mass of every element of each field the beam has."""
+    def element_matrices(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Of each field the beam has, stiffness and mass of every element, shape (e, n, n)."""
         return {
             name: elements.matrices(
                 name,
@@ -156,25 +152,29 @@ class Mesh:
         }
 
     @cached_property
-    def _eccentric(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    def _eccentric_mass(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """Mass that a centroid off the axis adds: rows, columns and values of each part."""
-        z, mass, dofs = self.beam.centroid_height, self.beam.mass, self.freedoms
+        z, mass, freedoms = self.beam.centroid_height, self.beam.mass, self.freedoms
         if z == 0.0 or "torsion" not in self.beam.fields:
             return []
         parts = [("torsion", "torsion", mass * z**2)]
         if "lateral" in self.beam.fields:
             parts += [("lateral", "torsion", -mass * z), ("torsion", "lateral", -mass * z)]
-        return [
-            (dofs[a], dofs[b], size * elements.coupling(self.h, self.shapes[a], self.shapes[b]))
-            for a, b, size in parts
-        ]
+        result = []
+        for a, b, factor in parts:
+            values = factor * elements.coupling(self.h, self.shapes[a], self.shapes[b])
+            result.append((freedoms[a], freedoms[b], values))
+        return result
 
     @cached_property
     def matrices(self) -> tuple[csr_array, csr_array]:
         """K and M over all freedoms, bearings not yet applied, shape (size, size)."""
-        own = [(self.freedoms[name], *both) for name, both in self.fields.items()]
-        k = self._assembled([(dofs, dofs, stiffness) for dofs, stiffness, _ in own])
-        return k, self._assembled([(dofs, dofs, mass) for dofs, _, mass in own] + self._eccentric)
+        stiffness, mass = [], []
+        for name, (k, m) in self.element_matrices.items():
+            freedoms = self.freedoms[name]
+            stiffness.append((freedoms, freedoms, k))
+            mass.append((freedoms, freedoms, m))
+        return self._assembled(stiffness), self._assembled(mass + self._eccentric_mass)
 
     def _assembled(self, parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> csr_array:
         """Add up parts, each with rows (e, n1), columns (e, n2) and values (e, n1, n2)."""
@@ -190,16 +190,16 @@ class Mesh:
     # ---- bearings
 
     @cached_property
-    def places(self) -> list[int]:
+    def bearing_nodes(self) -> list[int]:
         """The node of each bearing of the beam."""
         return [self.node(b.x, self.beam.piece(b)) for b in self.beam.bearings]
 
     @cached_property
     def _present(self) -> np.ndarray:
         """Which of a node's six freedoms the beam has."""
-        return np.array(sorted(p for name in self.beam.fields for p in _PLACE[name]))
+        return np.array(sorted(i for name in self.beam.fields for i in _NODE_FREEDOMS[name]))
 
-    def row(self, bearing: int, freedom: str) -> np.ndarray:
+    def bearing_row(self, bearing: int, freedom: str) -> np.ndarray:
         """Return the motion of a bearing (from 0) from its node's freedoms, shape (6,).
 
         Freedoms that the beam lacks are at rest.
@@ -210,34 +210,38 @@ class Mesh:
         return row
 
     def rigid_rows(self, node: int) -> tuple[list[tuple[int, str]], np.ndarray]:
-        """Which bearings hold a node rigidly, where, and the rows that say so, shape (r, 6)."""
-        keys = [
-            (i, f)
-            for i, n in enumerate(self.places)
-            if n == node
-            for f in self.beam.bearings[i].fixed
+        """Return what is held rigidly at a node.
+
+        Returns
+        -------
+        list of (int, str), and ndarray, shape (r, 6)
+            Bearing (from 0) and freedom that it holds; the rows of the node's freedoms that are
+            then zero.
+        """
+        rigid = [
+            (i, freedom)
+            for i, own in enumerate(self.bearing_nodes)
+            if own == node
+            for freedom in self.beam.bearings[i].fixed
         ]
-        return keys, np.array([self.row(*key) for key in keys]).reshape(-1, 6)
+        return rigid, np.array([self.bearing_row(*each) for each in rigid]).reshape(-1, 6)
 
     @cached_property
     def basis(self) -> csr_array:
         """Motions of all freedoms that the rigid bearings allow, shape (size, free)."""
-        held = set(self.places)
+        present, on_bearings = self._present, set(self.bearing_nodes)
         rows, columns, values, count = [], [], [], 0
         for node in range(len(self.nodes)):
-            allowed = (
-                null_space(self.rigid_rows(node)[1][:, self._present])
-                if node in held
-                else np.eye(len(self._present))
-            )
+            allowed = np.eye(len(present))
+            if node in on_bearings:
+                allowed = null_space(self.rigid_rows(node)[1][:, present])
             i, j = np.nonzero(allowed)
-            rows.append(6 * node + self._present[i])
+            rows.append(6 * node + present[i])
             columns.append(count + j)
             values.append(allowed[i, j])
             count += allowed.shape[1]
-        middles = np.concatenate(
-            [self.freedoms[n][:, 1] for n in ("axial", "torsion") if n in self.beam.fields] or [[]]
-        )
+        quadratic = [f for f in ("axial", "torsion") if f in self.beam.fields]
+        middles = np.concatenate([self.freedoms[f][:, 1] for f in quadratic] or [[]])
         rows.append(middles.astype(int))
         columns.append(count + np.arange(len(middles)))
         values.append(np.ones(len(middles)))
@@ -248,20 +252,18 @@ class Mesh:
     def stiffness(self) -> csr_array:
         """K with the springs of the bearings, shape (size, size)."""
         springs = [
-            (i, f, size)
+            (i, freedom, stiffness)
             for i, bearing in enumerate(self.beam.bearings)
-            for f, size in bearing.stiffness.items()
+            for freedom, stiffness in bearing.stiffness.items()
         ]
         if not springs:
             return self.matrices[0]
-        rows = np.array([self.row(i, freedom) for i, freedom, _ in springs])
-        values = (
-            np.array([size for *_, size in springs])[:, None, None]
-            * rows[:, :, None]
-            * rows[:, None, :]
-        )
-        dofs = np.array([6 * self.places[i] for i, *_ in springs])[:, None] + np.arange(6)
-        return self.matrices[0] + self._assembled([(dofs, dofs, values)])
+        rows = np.array([self.bearing_row(i, freedom) for i, freedom, _ in springs])
+        stiffnesses = np.array([stiffness for *_, stiffness in springs])
+        values = stiffnesses[:, None, None] * rows[:, :, None] * rows[:, None, :]
+        first = np.array([6 * self.bearing_nodes[i] for i, *_ in springs])
+        freedoms = first[:, None] + np.arange(6)
+        return self.matrices[0] + self._assembled([(freedoms, freedoms, values)])
 
     def _reduced(self, matrix: csr_array) -> csr_array:
         return (self.basis.T @ matrix @ self.basis).tocsr()
@@ -277,9 +279,9 @@ class Mesh:
     # ---- modes
 
     def modes(self, wanted: int | None = None) -> BeamModes:
-        """Solve each uncoupled group of freedoms on its own.
+        """Return natural modes, found in each uncoupled group of freedoms on its own.
 
-        A straight beam on bearings in its axis falls into four.
+        A straight beam on bearings in its axis falls into four groups.
 
         Parameters
         ----------
@@ -293,66 +295,85 @@ class Mesh:
         pattern.eliminate_zeros()
         count, group = connected_components(pattern, directed=False)
         groups = [np.flatnonzero(group == g) for g in range(count)]
-        enough = wanted
+        asked = wanted
         while True:
-            found = self._lowest(k, m, groups, enough)
-            if (
-                wanted is None
-                or len(found.names) == k.shape[0]
-                or int(np.sum(found.excitable)) >= wanted
-            ):
-                return found
-            enough *= 2
+            modes = self._modes_of(groups, *_solved(k, m, groups, asked))
+            enough = wanted is None or len(modes.names) == k.shape[0]
+            if enough or int(np.sum(modes.excitable)) >= wanted:
+                return modes
+            asked *= 2
 
-    def _lowest(
-        self, k: csr_array, m: csr_array, groups: list[np.ndarray], count: int | None
+    def _modes_of(
+        self,
+        groups: list[np.ndarray],
+        solved: list[tuple[np.ndarray, np.ndarray]],
+        order: np.ndarray,
     ) -> BeamModes:
-        """Return the `count` lowest modes and some more, as far as every group is known.
-
-        All modes if None.
-        """
-        solved, known = [], np.inf
-        for here in groups:
-            own = k[here][:, here], m[here][:, here]
-            solved.append(
-                eigh(*(a.toarray() for a in own)) if count is None else _lowest_of(*own, count)
-            )
-            if len(solved[-1][0]) < len(here):
-                known = min(known, solved[-1][0][-1])
+        """Return the modes of all groups together, in the given order; see `_solved`."""
         squares = np.concatenate([values for values, _ in solved])
-        order = np.argsort(squares, kind="stable")
-        order = order[squares[order] <= known][: None if count is None else 2 * count]
-        whose = np.repeat(np.arange(len(groups)), [len(values) for values, _ in solved])
-        firsts = np.cumsum([0, *(len(values) for values, _ in solved)])
+        counts = [len(values) for values, _ in solved]
+        whose, firsts = np.repeat(np.arange(len(groups)), counts), np.cumsum([0, *counts])
         vectors = np.zeros((self.size, len(order)))
-        for g, here in enumerate(groups):
+        for g, (freedoms, (_, shapes)) in enumerate(zip(groups, solved, strict=True)):
             own = np.flatnonzero(whose[order] == g)
-            vectors[:, own] = self.basis[:, here] @ solved[g][1][:, order[own] - firsts[g]]
+            vectors[:, own] = self.basis[:, freedoms] @ shapes[:, order[own] - firsts[g]]
         energies = self._energies(vectors)
-        return BeamModes(
-            np.sqrt(squares[order]) / (2 * np.pi), _names(energies), _signed(vectors), energies
-        )
+        frequencies = np.sqrt(squares[order]) / (2 * np.pi)
+        return BeamModes(frequencies, _names(energies), _signed(vectors), energies)
 
     def _energies(self, vectors: np.ndarray) -> dict[str, np.ndarray]:
         """Return the share of each field in the kinetic energy of every mode."""
         result = {name: np.zeros(vectors.shape[1]) for name in FIELDS}
-        for name, (_, mass) in self.fields.items():
+        for name, (_, mass) in self.element_matrices.items():
             part = vectors[self.freedoms[name]]
             result[name] += np.sum(part * (mass @ part), axis=(0, 1))
         # The mass moves sideways by v - z_c theta; its own turning alone is torsion.
-        for rows, columns, values in self._eccentric:
+        for rows, columns, values in self._eccentric_mass:
             result["lateral"] += np.sum(vectors[rows] * (values @ vectors[columns]), axis=(0, 1))
         whole = sum(result.values())
         return {name: part / whole for name, part in result.items()}
 
     def interpolate(self, vectors: np.ndarray) -> PiecewiseCubic:
-        """Lateral, vertical and twist shapes of nodal vectors, shape (size, n) or (size,)."""
+        """Return lateral, vertical and twist shapes of nodal vectors.
+
+        Parameters
+        ----------
+        vectors : ndarray, shape (size, n) or (size,)
+        """
         vectors = vectors.reshape(self.size, -1)
         result = np.zeros((len(self.h), 4, vectors.shape[1], 3))
-        for c, name in enumerate(("lateral", "vertical", "torsion")):
+        for c, name in enumerate(SHAPE_FIELDS):
             if name in self.beam.fields:
                 result[..., c] = self.shapes[name] @ vectors[self.freedoms[name]]
         return PiecewiseCubic(self.edges, result)
+
+
+def _solved(
+    k: csr_array, m: csr_array, groups: list[np.ndarray], count: int | None
+) -> tuple[list[tuple[np.ndarray, np.ndarray]], np.ndarray]:
+    """Return the `count` lowest modes and some more, or all of them if None.
+
+    Returns
+    -------
+    list of (ndarray, shape (s,); ndarray, shape (n, s))
+        Of each group omega^2, ascending, and shapes.
+    ndarray of int
+        Which of them, one group after the other, are the lowest; ascending, with none left out
+        between.
+    """
+    solved, known = [], np.inf
+    for freedoms in groups:
+        own_k, own_m = k[freedoms][:, freedoms], m[freedoms][:, freedoms]
+        if count is None:
+            squares, shapes = eigh(own_k.toarray(), own_m.toarray())
+        else:
+            squares, shapes = _lowest_of(own_k, own_m, count)
+        if len(squares) < len(freedoms):  # above its last mode nothing of this group is known
+            known = min(known, squares[-1])
+        solved.append((squares, shapes))
+    squares = np.concatenate([values for values, _ in solved])
+    order = np.argsort(squares, kind="stable")
+    return solved, order[squares[order] <= known][: None if count is None else 2 * count]
 
 
 def _lowest_of(k: csr_array, m: csr_array, wanted: int) -> tuple[np.ndarray, np.ndarray]:
@@ -360,14 +381,14 @@ def _lowest_of(k: csr_array, m: csr_array, wanted: int) -> tuple[np.ndarray, np.
 
     At least the `wanted` lowest, none left out below the last.
     """
-    size, more = k.shape[0], wanted + _SPARE
-    if size > DENSE and more < size // 4:
-        values, shapes = lowest(csc_array(k), csc_array(m), more)
+    size, count = k.shape[0], wanted + _SPARE
+    if size > DENSE and count < size // 4:
+        squares, shapes = lowest(csc_array(k), csc_array(m), count)
         # Counted where two modes are farthest apart: there round-off cannot put one on the wrong
         # side.
-        last = wanted + int(np.argmax(values[wanted:] / values[wanted - 1 : -1]))
-        if count_below(k, m, float(np.sqrt(values[last - 1] * values[last]))) == last:
-            return values[:last], shapes[:, :last]
+        last = wanted + int(np.argmax(squares[wanted:] / squares[wanted - 1 : -1]))
+        if count_below(k, m, float(np.sqrt(squares[last - 1] * squares[last]))) == last:
+            return squares[:last], shapes[:, :last]
     return eigh(k.toarray(), m.toarray())
 
 

@@ -22,10 +22,17 @@ _SHORTEST = 1e-3
 The deck's lowest frequency then keeps five digits.
 """
 
-_Length = Annotated[float, Range(above=0.0, unit="m")]
-_Bending = Annotated[float, Range(above=0.0, unit="N m2")]
-_Force = Annotated[float, Range(above=0.0, unit="N")]
-_PerMetre = Annotated[float, Range(above=0.0, unit="kg m")]
+_Rigidity = Annotated[float, Range(above=0.0, unit="N m2")]  # E I, G J
+_Force = Annotated[float, Range(above=0.0, unit="N")]  # E A, kGA
+_InertiaPerMetre = Annotated[float, Range(above=0.0, unit="kg m")]
+
+_FIELD_OF = {
+    "x": "axial", "y": "lateral", "z": "vertical",
+    "roll": "torsion", "pitch": "vertical", "yaw": "lateral",
+}  # fmt: skip
+"""The field to which what a bearing holds belongs."""
+_LENGTHS = {"x": 1, "y": 3, "z": 3, "roll": 1, "pitch": 1, "yaw": 1}
+"""Power of a length that turns a field's stiffness into that of a spring in this direction."""
 
 
 def checked_spans(spans: Sequence[float]) -> tuple[float, ...]:
@@ -104,7 +111,7 @@ class Section:
 
 @dataclass(frozen=True)
 class BeamProperties:
-    """A uniform deck on bearings, as data; see `Beam`.
+    """A uniform deck on bearings.
 
     Attributes
     ----------
@@ -154,25 +161,25 @@ class BeamProperties:
     """
 
     name: str
-    spans: tuple[float, ...]
+    spans: Annotated[tuple[float, ...], Range(above=0.0, unit="m")]
     mass: Annotated[float, Range(above=0.0, unit="kg/m")]
-    bending_stiffness_vertical: _Bending
-    bending_stiffness_lateral: _Bending | None = None
-    torsional_stiffness: _Bending | None = None
+    bending_stiffness_vertical: _Rigidity
+    bending_stiffness_lateral: _Rigidity | None = None
+    torsional_stiffness: _Rigidity | None = None
     axial_stiffness: _Force | None = None
-    polar_inertia: _PerMetre | None = None
+    polar_inertia: _InertiaPerMetre | None = None
     bearings: tuple[Bearing, ...] = ()
     elements: Annotated[int, Range(least=2, most=400, whole=True)] | None = None
     continuous: bool = True
     shear_stiffness_vertical: _Force | None = None
     shear_stiffness_lateral: _Force | None = None
-    rotary_inertia_vertical: _PerMetre | None = None
-    rotary_inertia_lateral: _PerMetre | None = None
+    rotary_inertia_vertical: _InertiaPerMetre | None = None
+    rotary_inertia_lateral: _InertiaPerMetre | None = None
     centroid_height: Annotated[float, Range(least=-FARTHEST, most=FARTHEST, unit="m")] = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "spans", checked_spans(self.spans))
         check_fields(self)
+        checked_spans(self.spans)
         if (self.torsional_stiffness is None) != (self.polar_inertia is None):
             missing = "polar_inertia" if self.polar_inertia is None else "torsional_stiffness"
             remedy = "Twist needs torsional_stiffness and polar_inertia"
@@ -181,14 +188,8 @@ class BeamProperties:
             if getattr(self, key) is not None and self.bending_stiffness_lateral is None:
                 remedy = f"{key} goes with it"
                 raise InputError("bending_stiffness_lateral", None, "is missing", remedy)
-        bearings: list[Bearing] = []
-        for i, bearing in enumerate(self.bearings or self._usual_bearings(), start=1):
-            with within(f"bearings[{i}]"):
-                placed = replace(bearing, x=on_deck(bearing.x, self._span_ends))
-                self._refuse_missing_stiffness(placed)
-                bearings += self._under_spans(placed)
-        object.__setattr__(self, "bearings", tuple(bearings))
-        self._refuse_close_lines()
+        object.__setattr__(self, "bearings", self._placed_bearings())
+        self._refuse_close_nodes()
         self._refuse_mechanism()
 
     @property
@@ -237,110 +238,106 @@ class BeamProperties:
         return 0.0 if shear is None else self.stiffness_of(name) / shear
 
     def rotary_inertia(self, name: str) -> float:
-        """M r^2 of a bending field, kg m; 0 where it is left out, and of the other fields."""
+        """Return the rotary inertia of a bending field, m r^2, kg m.
+
+        0 where it is left out, and of the other fields.
+        """
         return {
             "lateral": self.rotary_inertia_lateral,
             "vertical": self.rotary_inertia_vertical,
         }.get(name) or 0.0
 
     @cached_property
+    def required_nodes(self) -> np.ndarray:
+        """Ends of spans and places of bearings, m, ascending: a mesh must have a node at each."""
+        return np.unique(np.concatenate([self._span_ends, [b.x for b in self.bearings]]))
+
+    @cached_property
     def _span_ends(self) -> np.ndarray:
         return np.concatenate([[0.0], np.cumsum(self.spans)])
+
+    def _placed_bearings(self) -> tuple[Bearing, ...]:
+        """Return the given or usual bearings, one under each span where simple spans meet."""
+        placed: dict[tuple, Bearing] = {}
+        for i, given in enumerate(self.bearings or self._usual_bearings(), start=1):
+            with within(f"bearings[{i}]"):
+                bearing = replace(given, x=on_deck(given.x, self._span_ends))
+                self._refuse_missing_stiffness(bearing)
+                for own in self._under_spans(bearing):
+                    place = (own.x, round(own.y, 6), round(own.z, 6), self.piece(own))
+                    if place in placed:
+                        allowed = "is given to two bearings in one place"
+                        raise InputError("x", own.x, allowed, "List all they hold in one")
+                    placed[place] = own
+        return tuple(placed.values())
 
     def _usual_bearings(self) -> tuple[Bearing, ...]:
         usual, ends = ("y", "z", "roll"), self._span_ends.tolist()
         if self.continuous:
             return tuple(Bearing(x, (*usual, "x") if i == 0 else usual) for i, x in enumerate(ends))
-        pairs = zip(ends[:-1], ends[1:], strict=True)
-        return tuple(
-            b
-            for i, (a, e) in enumerate(pairs, 1)
-            for b in (Bearing(a, (*usual, "x"), span=i), Bearing(e, usual, span=i))
-        )
+        bearings: list[Bearing] = []
+        for span, (start, end) in enumerate(zip(ends[:-1], ends[1:], strict=True), start=1):
+            bearings += [Bearing(start, (*usual, "x"), span=span), Bearing(end, usual, span=span)]
+        return tuple(bearings)
 
     def _under_spans(self, bearing: Bearing) -> list[Bearing]:
         """Put one bearing under each span where two meet."""
         if self.continuous:
             if bearing.span is not None:
-                allowed = "can only be told of simple spans"
-                raise InputError("span", bearing.span, allowed, "Or set continuous = false")
+                allowed = "is only for simple spans"
+                remedy = "Leave it out, or set continuous to false"
+                raise InputError("span", bearing.span, allowed, remedy)
             return [bearing]
-        reached = [
-            i
-            for i in range(1, len(self.spans) + 1)
-            if self._span_ends[i - 1] <= bearing.x <= self._span_ends[i]
-        ]
-        if bearing.span is not None and bearing.span not in reached:
+        starts, ends = self._span_ends[:-1], self._span_ends[1:]
+        reached = np.flatnonzero((starts <= bearing.x) & (bearing.x <= ends)) + 1
+        if bearing.span is None:
+            return [replace(bearing, span=span) for span in reached.tolist()]
+        if bearing.span not in reached:
+            allowed = f"must be {' or '.join(map(str, reached))}, at this x"
             remedy = "Leave span out for one bearing under each span that meets there"
-            raise InputError(
-                "span", bearing.span, f"must be {' or '.join(map(str, reached))}, at this x", remedy
-            )
-        return [
-            replace(bearing, span=span) for span in ([bearing.span] if bearing.span else reached)
-        ]
-
-    @cached_property
-    def _lines(self) -> np.ndarray:
-        """Ends of spans and bearings, m, ascending: places that must be nodes."""
-        return np.unique(np.concatenate([self._span_ends, [b.x for b in self.bearings]]))
+            raise InputError("span", bearing.span, allowed, remedy)
+        return [bearing]
 
     def _refuse_missing_stiffness(self, bearing: Bearing) -> None:
         """Refuse a bearing that would hold the deck's turning only because a shift is left out."""
-        keys = {"x": ("axial", "axial_stiffness"), "y": ("lateral", "bending_stiffness_lateral")}
-        turns = {"axial": (), "lateral": ("yaw",), "vertical": ("pitch",), "torsion": ("roll",)}
-        turning = [t for name in self.fields for t in turns[name]]
-        places = {"roll": 3, "yaw": 4, "pitch": 5}
-        for freedom, (name, key) in keys.items():
-            row = bearing.row(freedom, self.centroid_height)
-            coupled = [t for t in turning if row[places[t]] != 0.0]
-            if freedom in bearing.restrained and name not in self.fields and coupled:
-                beside = (
-                    "is held beside the axis, which would also hold "
-                    f"{' and '.join(coupled)} unless the deck gives that way"
-                )
-                raise InputError(
-                    freedom, None, beside, f"Give {key}, or put the bearing into the axis"
-                )
+        needed = {"x": "axial_stiffness", "y": "bending_stiffness_lateral"}
+        turns = {"yaw": 4, "pitch": 5, "roll": 3}  # and where they stand in a bearing's row
+        for shift, stiffness in needed.items():
+            if shift not in bearing.restrained or _FIELD_OF[shift] in self.fields:
+                continue
+            row = bearing.row(shift, self.centroid_height)
+            stopped = [t for t, i in turns.items() if _FIELD_OF[t] in self.fields and row[i] != 0.0]
+            if stopped:
+                spring = bearing.stiffness.get(shift)
+                field = "fixed" if spring is None else f"stiffness.{shift}"
+                allowed = f"holds {shift} off the deck axis, where a deck without {stiffness} "
+                allowed += f"could not {' or '.join(stopped)}"
+                remedy = f"Give {stiffness}, or put the bearing into the axis"
+                raise InputError(field, spring or " ".join(bearing.fixed), allowed, remedy)
 
-    def _refuse_close_lines(self) -> None:
+    def _refuse_close_nodes(self) -> None:
         """Refuse spans and distances of bearings so short that round-off would spoil the modes."""
-        seen = set()
-        for i, b in enumerate(self.bearings, start=1):
-            place = (b.x, round(b.y, 6), round(b.z, 6), self.piece(b))
-            if place in seen:
-                allowed = "is given to two bearings in one place"
-                raise InputError(f"bearings[{i}].x", b.x, allowed, "List all they hold in one")
-            seen.add(place)
-        gaps = np.diff(self._lines)
+        nodes = self.required_nodes
+        gaps = np.diff(nodes)
         if gaps.min() < _SHORTEST * self.length:
             allowed = f"a span or distance of bearings of {gaps.min():.3g} m behind "
-            allowed += f"x = {self._lines[np.argmin(gaps)]:g} m is too short, "
+            allowed += f"x = {nodes[np.argmin(gaps)]:g} m is too short, "
             allowed += f"must be at least {_SHORTEST:g} of the whole length"
             raise InputError("spans", list(self.spans), allowed, "Merge the two lines")
 
     def _refuse_mechanism(self) -> None:
         """Check that the bearings hold all rigid-body motions of beam and simple spans."""
-        moving = {
-            "x": "axial",
-            "y": "lateral",
-            "z": "vertical",
-            "roll": "torsion",
-            "pitch": "vertical",
-            "yaw": "lateral",
-        }
-        orders = {"x": 1, "y": 3, "z": 3, "roll": 1, "pitch": 1, "yaw": 1}
         reference = {
-            f: self.stiffness_of(name) / self.length ** orders[f]
-            for f, name in moving.items()
-            if name in self.fields
+            freedom: self.stiffness_of(field) / self.length ** _LENGTHS[freedom]
+            for freedom, field in _FIELD_OF.items()
+            if field in self.fields
         }
         for piece in range(len(self.joints) + 1):
             own = [b for b in self.bearings if self.piece(b) == piece]
             free = free_motions(own, self.fields, self.length, self.centroid_height, reference)
             if free:
                 what = "the deck" if self.continuous else f"span {piece + 1}"
-                held = [(b.x, " ".join(b.restrained)) for b in own]
+                given = [(b.x, " ".join(b.restrained)) for b in own]
                 allowed = f"do not keep {what} from {' or '.join(free)}, so it is a mechanism"
-                raise InputError(
-                    "bearings", held, allowed, "Hold one more freedom, or one more bearing line"
-                )
+                remedy = "Hold one more freedom, or one more bearing line"
+                raise InputError("bearings", given, allowed, remedy)
