@@ -166,7 +166,7 @@ def test_a_crossing_that_is_refused_says_why(visited, notebook, panel):
     wavelength = own.slider("wavelength (m)")
     own.press(wavelength, "Home")
     refused = own.refused(now)
-    for words in ("run.time_step = 0.005", "3 m of irregularity", "Leave run.time_step out"):
+    for words in ("run.time_step = 0.005", "3 m of irregularity", "Leave time_step out"):
         assert words in refused["error"]
     own.press(wavelength, "ArrowRight")
     assert "3.1 m waves" in own.changed(now)["summary"]
