@@ -3,6 +3,7 @@
 Nothing is executed, nothing is fetched.
 """
 
+import re
 from dataclasses import is_dataclass
 from importlib.metadata import version as version_of
 from importlib.util import find_spec
@@ -80,7 +81,16 @@ def say_as_meant(app, what, name, thing, options, lines):
         lines[:0] = ["..", ""]  # what stands before a colon in the first line is no type
 
 
+def without_ranges(app, what, name, thing, options, signature, returned):
+    """Numbers as numbers: the text below says their range."""
+    if signature is not None:
+        signature = re.sub(r"Annotated\[(\w+), Range\([^()]*\)\]", r"\1", signature)
+        signature = re.sub(r"\b_[A-Z][a-z]+\b", "float", signature)
+    return signature, returned
+
+
 def setup(app):
-    """Tell Sphinx of the two functions above."""
+    """Tell Sphinx of the functions above."""
     app.connect("autodoc-process-docstring", say_as_meant, priority=100)  # before napoleon reads it
+    app.connect("autodoc-process-signature", without_ranges)
     app.connect("doctree-read", keep_formulas_whole)

@@ -34,13 +34,13 @@ from .rows import Layout, Row
 from .scenarios import READING, SCENARIOS, readings, run, scenario
 
 __all__ = [
-    "LAYOUT", "READING", "SCENARIOS", "TABLE2_DECK", "TABLE2_VEHICLE", "TABLE3", "TABLE4",
-    "bounce_amplitude", "compare", "frame", "mass_needed", "readings", "report", "reproduce", "run",
-    "scenario", "table4",
+    "READING", "SCENARIOS", "TABLE2_DECK", "TABLE2_VEHICLE", "TABLE3", "TABLE4", "bounce_amplitude",
+    "compare", "frame", "mass_needed", "readings", "report", "reproduce", "run", "scenario",
+    "table4",
 ]  # fmt: skip
 
-LAYOUT = Layout("paper", "suite", ".3f", quantity_width=36, difference_width=11, sources=False)
-report, frame = LAYOUT.report, LAYOUT.frame
+_LAYOUT = Layout("paper", "suite", ".3f", quantity_width=36, difference_width=11, sources=False)
+report, frame = _LAYOUT.report, _LAYOUT.frame
 
 
 # ---- ours

@@ -22,12 +22,12 @@ from .moving_forces import axle_train_rows, moving_force_rows
 from .rows import Layout, Row
 
 __all__ = [
-    "LAYOUT", "ConvergenceRow", "cases", "convergence_with_modes", "frame", "main", "report",
-    "run_car", "run_force", "run_yang_yau",
+    "ConvergenceRow", "cases", "convergence_with_modes", "frame", "main", "report", "run_car",
+    "run_force", "run_yang_yau",
 ]  # fmt: skip
 
-LAYOUT = Layout("theirs", "ours", ".5g", quantity_width=48, difference_width=10, sources=True)
-report, frame = LAYOUT.report, LAYOUT.frame
+_LAYOUT = Layout("theirs", "ours", ".5g", quantity_width=48, difference_width=10, sources=True)
+report, frame = _LAYOUT.report, _LAYOUT.frame
 
 
 @cache
