@@ -1,6 +1,7 @@
 """Boxes: section by hand, the beam, what is refused, and deck files."""
 
-from dataclasses import replace
+import re
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -256,3 +257,9 @@ def test_boxes_load_by_name(tmp_path):
 def test_pads_that_miss_the_end_by_rounding_stand_on_it():
     pads = (Pads(0.0, ("x", "y", "z")), Pads(36.0 * (1 + 1e-10), ("y", "z")))
     assert replace(rb.box("viaduct36_identified"), bearings=pads).bearings[1].x == 36.0
+
+
+@pytest.mark.parametrize("kind", [rb.Box, rb.Pads, rb.BoxMesh])
+def test_help_says_what_every_field_means(kind):
+    for f in fields(kind):
+        assert re.search(rf"^ *(\w+, )*{f.name}(, \w+)* : ", kind.__doc__, re.MULTILINE), f.name

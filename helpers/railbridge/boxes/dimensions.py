@@ -78,7 +78,7 @@ class Pads:
 
 @dataclass(frozen=True)
 class BoxDimensions:
-    """A single-cell box girder, as data; see `Box`.
+    """A single-cell box girder.
 
     Attributes
     ----------

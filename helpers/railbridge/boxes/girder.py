@@ -17,11 +17,9 @@ __all__ = ["Box"]
 
 
 @dataclass(frozen=True)
-class Box(BoxDimensions):
-    """A single-cell box girder.
-
-    What it consists of, and what is refused, is said of `BoxDimensions`.
-    """
+class Box(BoxDimensions):  # noqa: D101
+    # What its fields mean is written once, and read by whoever asks for help on a box.
+    __doc__ = BoxDimensions.__doc__
 
     # ---- section and beam
 
