@@ -1,6 +1,10 @@
-"""The door for ``python -m railbridge.paper``; see `railbridge.validation.paper`."""
+"""Runs as ``python -m railbridge.paper``; imported, it is `railbridge.validation.paper`."""
 
-from .validation.paper import main
+import sys
+
+from .validation import paper
 
 if __name__ == "__main__":
-    main()
+    paper.main()
+else:
+    sys.modules[__name__] = paper

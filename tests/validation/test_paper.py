@@ -1,5 +1,6 @@
 """The paper's case: what `make reproduce` writes, within limits that were set beforehand."""
 
+import importlib
 import json
 
 import numpy as np
@@ -160,6 +161,10 @@ def test_every_sizeable_difference_has_a_reason():
         for row in paper.compare(loads):
             small = 100 * abs(row.difference) < 0.11
             assert small or row.why, row
+
+
+def test_every_way_to_the_paper_leads_to_one_module():
+    assert importlib.import_module("railbridge.paper") is rb.paper is paper
 
 
 def test_printed_numbers_are_reached_through_the_paper():
