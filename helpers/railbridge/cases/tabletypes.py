@@ -193,7 +193,8 @@ def switched(choose: Callable[[Any], str], kinds: Mapping[str, Any]) -> Any:
         Types by name.
     """
     tagged = tuple(Annotated[kind, Tag(_TAG + name)] for name, kind in kinds.items())
-    return Annotated[Union[tagged], Discriminator(lambda value: _TAG + choose(value))]  # noqa: UP007 - made from a tuple
+    either = Union[tagged]  # noqa: UP007 - from a tuple
+    return Annotated[either, Discriminator(lambda value: _TAG + choose(value))]
 
 
 def by_key(value: Any, names: tuple[str, ...], otherwise: str) -> str:
