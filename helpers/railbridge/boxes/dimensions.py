@@ -16,7 +16,7 @@ import numpy as np
 from .. import errors
 from ..beams import checked_spans, on_deck
 from ..errors import InputError, Range, check_fields, within
-from .pads import DIRECTIONS
+from .pads import DIRECTIONS, STIFFEST
 from .section import refuse_crossing
 
 __all__ = ["BoxDimensions", "Pads"]
@@ -65,7 +65,7 @@ class Pads:
             errors.choice("fixed", name, DIRECTIONS)
         for name, value in errors.table("stiffness", self.stiffness).items():
             errors.choice("stiffness", name, DIRECTIONS)
-            errors.number(f"stiffness.{name}", value, above=0.0, most=1e14, unit="N/m")
+            errors.number(f"stiffness.{name}", value, above=0.0, most=STIFFEST, unit="N/m")
             if name in self.fixed:
                 raise InputError(f"stiffness.{name}", value, "is fixed, too", "Give one of both")
         object.__setattr__(self, "fixed", tuple(self.fixed))

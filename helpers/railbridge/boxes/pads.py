@@ -19,6 +19,8 @@ __all__ = ["DIRECTIONS", "Pad", "elimination", "free_motion_count", "support_row
 
 DIRECTIONS = ("x", "y", "z")
 """What a pad may hold."""
+STIFFEST = 1e14
+"""N/m: beyond this a spring would cost the modes their digits."""
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,10 @@ from typing_extensions import TypeAliasType
 from .. import errors
 from ..beams import Beam, Bearing, Section
 from ..beams.bearings import FIXITIES
+from ..beams.bearings import STIFFEST as STIFFEST_BEARING
 from ..boxes import Box, BoxMesh, Pads
 from ..boxes.pads import DIRECTIONS
+from ..boxes.pads import STIFFEST as STIFFEST_PAD
 from ..decks import RATIO
 from ..errors import InputError, Range, choice, keys
 from ..exchange import ModesTable
@@ -277,7 +279,9 @@ BEARING = table(
     base=_Holds,
     schema=_HOLDS,
     **fields_of(
-        Bearing, fixed=_words(FIXITIES), stiffness=named_numbers(FIXITIES, above=0.0, most=1e16)
+        Bearing,
+        fixed=_words(FIXITIES),
+        stiffness=named_numbers(FIXITIES, above=0.0, most=STIFFEST_BEARING),
     ),
 )
 PADS = table(
@@ -286,7 +290,9 @@ PADS = table(
     base=_Holds,
     schema=_HOLDS,
     **fields_of(
-        Pads, fixed=_words(DIRECTIONS), stiffness=named_numbers(DIRECTIONS, above=0.0, most=1e14)
+        Pads,
+        fixed=_words(DIRECTIONS),
+        stiffness=named_numbers(DIRECTIONS, above=0.0, most=STIFFEST_PAD),
     ),
 )
 SECTION = table("Section", "Section and material.", **fields_of(Section))
