@@ -8,18 +8,17 @@ from collections.abc import Callable
 from dataclasses import fields
 from typing import get_type_hints
 
-import numpy as np
-
-from .coupling import Coupling, iterate, prepare
+from .coupling import iterate, prepare
 from .decks import Deck
 from .direct import solve_directly
-from .errors import InputError
+from .errors import InputWarning, ResultWarning
+from .notices import remarks
 from .results import Crossing
-from .settings import LEAD_IN_SECONDS, Options, Settings, check
+from .settings import Options, Settings, check
 from .tracks import Track
-from .trains import AnyTrain, steady_forces
+from .trains import AnyTrain
 
-__all__ = ["InputWarning", "NotConvergedError", "compute", "cross"]
+__all__ = ["NotConvergedError", "compute", "cross"]
 
 
 class NotConvergedError(RuntimeError):
@@ -42,14 +41,6 @@ class NotConvergedError(RuntimeError):
             f"row. Try {path}relaxation = 0.5 or 'aitken', more {path}max_iterations, or {other}."
         )
         self.run = run
-
-
-class InputWarning(UserWarning):
-    """An option that is unlikely to be meant; `field` names it in the caller's words."""
-
-    def __init__(self, field: str, text: str) -> None:
-        super().__init__(f"{field} {text}")
-        self.field, self.text = field, text
 
 
 def _with_options(function: Callable) -> Callable:
@@ -106,13 +97,22 @@ def cross(
     NotConvergedError
         With everything computed so far in its ``run``.
 
+    Warns
+    -----
+    InputWarning, ResultWarning
+        What `notices.remarks` says of the result.
+
     Notes
     -----
     Self-weight is not fed back: the track is laid level on the sagged deck.
     """
     track = Track() if track is None else track
     settings = check(train, deck, track, **options)
-    return compute(train, deck, track, settings, progress)
+    run = compute(train, deck, track, settings, progress)
+    for remark in remarks(run):
+        if isinstance(remark, (InputWarning, ResultWarning)):
+            warnings.warn(remark, stacklevel=2)
+    return run
 
 
 def compute(
@@ -122,7 +122,7 @@ def compute(
     settings: Settings,
     progress: Callable[[str], None] | None = None,
 ) -> Crossing:
-    """Compute a crossing whose settings are checked; see `cross`.
+    """Compute a crossing whose settings are checked, without warnings; see `cross`.
 
     Parameters
     ----------
@@ -132,7 +132,6 @@ def compute(
     progress : function of one text, optional
     """
     coupling = prepare(train, deck, track, settings)
-    _warn_of_transient(coupling, track)
     start = coupling.nothing_added()
     if settings.interaction == "rigid":
         return Crossing(train, deck, track, settings, (start,), (), None, 0, coupling)
@@ -147,31 +146,3 @@ def compute(
     if settings.iterations is None and not found.converged:
         raise NotConvergedError(run)
     return run
-
-
-def _warn_of_transient(coupling: Coupling, track: Track) -> None:
-    """Compare the first car's rigid-deck forces with the closed form they should have settled to.
-
-    While it crosses.
-    """
-    s, train, first = coupling.settings, coupling.train, coupling.cars[0]
-    usual = LEAD_IN_SECONDS * s.speed
-    if not 0.0 < s.lead_in < usual or first.respond is None or train.notches:
-        return
-    try:
-        steady = steady_forces(first.car.vehicle, track, s.speed, s.excitation)
-    except InputError:  # level, or not harmonic: nothing to compare with
-        return
-    if not np.all(np.isfinite(steady)) or not np.any(steady):
-        return
-    wavelength = track.shortest  # the only one
-    centre = s.speed * coupling.time[first.window] - first.car.centre
-    settled = (steady[..., None] * np.exp(2j * np.pi * centre / wavelength)).imag
-    left = np.linalg.norm(first.rigid[..., first.window] - settled) / np.linalg.norm(settled)
-    if left > 0.01:
-        said = (
-            f"= {s.lead_in:g} m: {left:.1%} of the steady wheel forces is still transient while "
-            f"the first car crosses. Leave it out for {usual:g} m, or give 0 for level track "
-            "before the deck."
-        )
-        warnings.warn(InputWarning("lead_in", said), stacklevel=4)

@@ -22,7 +22,7 @@ from typing import Protocol
 import numpy as np
 
 from . import errors
-from .errors import InputError, Range, frozen
+from .errors import InputError, Range, Remark, frozen
 from .guideways import Guideway, PiecewiseCubic
 from .response import SampledModes, sampled_modes
 
@@ -226,6 +226,8 @@ class Deck(Guideway):
         kg/m.
     bearings : tuple of (x, y, z)
         Places of the single bearings, m; empty where only bearing lines are known.
+    remarks : tuple of Remark
+        What whoever made the deck doubts about it, or what it leaves out.
     """
 
     frequencies_hz: np.ndarray
@@ -235,6 +237,7 @@ class Deck(Guideway):
     recovery: Recovery | None = field(default=None, repr=False)
     mass_per_metre: float | None = None
     bearings: tuple[tuple[float, float, float], ...] = ()
+    remarks: tuple[Remark, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         # Copies, since a deck is made once for many crossings.

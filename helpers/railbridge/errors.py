@@ -1,8 +1,11 @@
-"""Refusals: what cannot be used is named, with its value, what is allowed and what to try.
+"""Refusals and remarks: what cannot be used, and what a reader should doubt.
 
 Every refusal is one :class:`InputError`, raised before any number is computed, in the words of
 whoever called: a function names its own argument. Who knows more of the way there (the table of a
 case file, say) puts it in front; see `within`.
+
+What can be used but is unlikely to be meant, or what must be known before a result is read, is a
+`Remark`, in one sentence.
 
 A path is written ``train.cars[2].vehicle``; places in lists count from 1, as cars, axles and wheels
 do.
@@ -25,9 +28,9 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 import numpy as np
 
 __all__ = [
-    "FieldType", "InputError", "Range", "boolean", "check_fields", "choice", "did_you_mean",
-    "field_types", "frozen", "integer", "joined", "keys", "number", "numbers", "plain", "table",
-    "text", "within",
+    "FieldType", "InputError", "InputWarning", "Range", "Remark", "ResultWarning", "boolean",
+    "check_fields", "choice", "did_you_mean", "field_types", "frozen", "integer", "joined", "keys",
+    "number", "numbers", "plain", "table", "text", "within",
 ]  # fmt: skip
 
 
@@ -67,9 +70,44 @@ class InputError(ValueError):
         """
         if self.source:
             return self
-        head = self.field.partition(".")[0].partition("[")[0]
-        field = (names or {}).get(head, head) + self.field[len(head) :]
-        return InputError(joined(path, field), self.value, self.allowed, self.remedy, source)
+        field = joined(path, _renamed(self.field, names or {}))
+        return InputError(field, self.value, self.allowed, self.remedy, source)
+
+
+class Remark(UserWarning):
+    """What a reader should know or doubt, in one sentence; its two kinds are also warned of.
+
+    Parameters
+    ----------
+    field : str
+        Path of the field it is about, in the caller's words; empty if it is about none.
+    text : str
+        The sentence; after a field it goes on with the field's name.
+    """
+
+    def __init__(self, field: str, text: str) -> None:
+        super().__init__(f"{field} {text}" if field else text)
+        self.field, self.text = field, text
+
+    def moved(self, path: str = "", names: Mapping[str, str] | None = None) -> Remark:
+        """Return the same remark with the way to its field put in front; see `within`."""
+        if not self.field:
+            return self
+        return type(self)(joined(path, _renamed(self.field, names or {})), self.text)
+
+
+class InputWarning(Remark):
+    """A value that can be used, but is unlikely to be meant."""
+
+
+class ResultWarning(Remark):
+    """What must be known before a result is read."""
+
+
+def _renamed(field: str, names: Mapping[str, str]) -> str:
+    """Return a path with its first part called by another name."""
+    head = field.partition(".")[0].partition("[")[0]
+    return names.get(head, head) + field[len(head) :]
 
 
 def joined(path: str, field: str) -> str:

@@ -24,13 +24,13 @@ from typing import Any
 
 import numpy as np
 
-from ..crossing import InputWarning, NotConvergedError
+from ..crossing import NotConvergedError
 from ..errors import InputError
 from ..results import Crossing
 from ..settings import bytes_needed
 from . import copies, pages, shelf
-from .definition import IN_A_CASE, Case, case
-from .summary import histories, summarize, to_json
+from .definition import Case, case
+from .summary import histories, to_json
 
 __all__ = ["main"]
 
@@ -77,7 +77,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with np.errstate(all="ignore"), warnings.catch_warnings():
             warnings.simplefilter("once")
             warnings.simplefilter("ignore", RuntimeWarning)
-            warnings.showwarning = lambda message, *_, **__: _say(f"warning: {_worded(message)}")
+            warnings.showwarning = lambda message, *_, **__: _say(f"warning: {message}")
             return given.command(given)
     except InputError as error:
         _say(str(error))
@@ -96,13 +96,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         _say(f"{error.filename or 'the output'}: {error.strerror or error}")
         return 1
-
-
-def _worded(warning: Warning) -> str:
-    """Return a warning in the words of a case file."""
-    if isinstance(warning, InputWarning):
-        return f"{IN_A_CASE.get(warning.field, warning.field)} {warning.text}"
-    return str(warning)
 
 
 def _say(line: str) -> None:
@@ -238,7 +231,7 @@ def _write(
                     done += 1
                     progress(f"writing {table.name}.csv, {done} 000 rows")
     progress("writing summary.json")
-    (folder / "summary.json").write_text(to_json(summarize(run, loaded.points)), encoding="utf-8")
+    (folder / "summary.json").write_text(to_json(loaded.summary(run)), encoding="utf-8")
 
 
 def _check(given: argparse.Namespace) -> int:

@@ -8,6 +8,7 @@ key, as in ``run.speed``.
 from __future__ import annotations
 
 import copy
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import InitVar, dataclass, field, fields
 from pathlib import Path
@@ -19,7 +20,9 @@ import numpy as np
 from .. import errors, exchange
 from ..crossing import NotConvergedError, compute
 from ..decks import Deck
-from ..errors import InputError, within
+from ..errors import InputError, InputWarning, Remark, ResultWarning, within
+from ..notices import remarks
+from ..plausibility import doubts
 from ..results import Crossing
 from ..settings import Options, Settings, check
 from ..tracks import Track
@@ -109,18 +112,38 @@ class Case:
         return copy.deepcopy(place)
 
     def run(self, progress: Callable[[str], None] | None = None) -> Crossing:
-        """Compute the crossing; see `cross`."""
+        """Compute the crossing, and warn of what is doubtful about it; see `cross`."""
+        run = self.compute(progress)
+        for remark in self.remarks(run):
+            if isinstance(remark, (InputWarning, ResultWarning)):
+                warnings.warn(remark, stacklevel=2)
+        return run
+
+    def compute(self, progress: Callable[[str], None] | None = None) -> Crossing:
+        """Compute the crossing without warnings."""
         try:
             return compute(self.train, self.deck, self.track, self.settings, progress)
         except NotConvergedError as error:
             raise NotConvergedError(error.run, "run.") from None
+
+    @property
+    def doubts(self) -> list[Remark]:
+        """What is unlikely to be meant, in the words of the case; known before anything is run."""
+        found = [remark.moved("deck") for remark in self.deck.remarks]
+        found += doubts(self.train, self.deck, self.track, self.settings)
+        return [remark.moved(names=IN_A_CASE) for remark in found]
+
+    def remarks(self, run: Crossing) -> list[Remark]:
+        """Return what must be known before a run of this case is read, in the case's words."""
+        return [remark.moved(names=IN_A_CASE) for remark in remarks(run)]
 
     def summary(self, run: Crossing | None = None) -> dict[str, Any]:
         """Return the numbers engineers look at first; see `summarize`.
 
         Of a run of this case, if there is one already.
         """
-        return summarize(run or self.run(), self.points)
+        run = run or self.compute()
+        return summarize(run, self.points, self.remarks(run))
 
     def code(self) -> str:
         """Return Python lines that build and run this very case."""

@@ -16,7 +16,9 @@ from typing import Any
 
 import numpy as np
 
+from .. import notices
 from ..decks import Line
+from ..errors import Remark
 from ..results import ENVELOPE, Crossing
 from ..settings import STATIONS
 
@@ -32,7 +34,9 @@ QUANTITIES = {
 PLACES = ("front", "middle", "rear")
 
 
-def summarize(run: Crossing, points: Sequence[float]) -> dict[str, Any]:
+def summarize(
+    run: Crossing, points: Sequence[float], remarks: Sequence[Remark] | None = None
+) -> dict[str, Any]:
     """Return the summary of a crossing: tables, lists, texts, finite numbers, booleans, None.
 
     Parameters
@@ -40,6 +44,8 @@ def summarize(run: Crossing, points: Sequence[float]) -> dict[str, Any]:
     run : Crossing
     points : sequence of float
         Places along the deck, m.
+    remarks : sequence of Remark, optional
+        What the reader must know, in words other than those of `notices.remarks`.
 
     Returns
     -------
@@ -61,6 +67,7 @@ def summarize(run: Crossing, points: Sequence[float]) -> dict[str, Any]:
     ``deck_frequencies_hz``.
     """
     s, deck = run.settings, run.deck
+    remarks = notices.remarks(run) if remarks is None else remarks
     points = [float(x) for x in points]
     kinds = run.train.kinds()
     iterated = s.interaction == "iterate"
@@ -68,7 +75,7 @@ def summarize(run: Crossing, points: Sequence[float]) -> dict[str, Any]:
         "vehicle_frequencies_hz": kinds[0][0].modes().frequencies_hz if kinds else [],
         "deck_frequencies_hz": deck.frequencies_hz,
         "deck_mode_names": list(deck.mode_names),
-        "remarks": _remarks(run),
+        "remarks": [str(remark) for remark in remarks],
         "converged": run.converged if iterated else None,
         "iterations": run.iterations if iterated else 0,
         "changes": list(run.changes) if iterated else None,
@@ -87,16 +94,6 @@ def summarize(run: Crossing, points: Sequence[float]) -> dict[str, Any]:
         "self_weight": _self_weight(run, points),
     }  # fmt: skip
     return _plain(result)
-
-
-def _remarks(run: Crossing) -> list[str]:
-    """Return what a reader must know before reading the numbers."""
-    if not run.deck.recovery.lacks:
-        return []
-    return [
-        "Only modes of this deck are known: section forces, reactions and self-weight are null, "
-        "and displacements lack the static flexibility of the modes left out."
-    ]
 
 
 def to_json(summary: dict[str, Any]) -> str:

@@ -103,7 +103,7 @@ def _by_iteration(case: Case, progress: Callable[[str], None] | None = None) -> 
 
     What each of them works out on demand is kept with it.
     """
-    run = case.run(progress)
+    run = case.compute(progress)
     return {i: run.at(i) for i in range(run.iterations + 1)}
 
 
@@ -179,7 +179,7 @@ def rigid_forces(case: Case | None = None) -> Panel:
     """
 
     def compute(case, progress):
-        return case.run(progress), _steady_components(case)
+        return case.compute(progress), _steady_components(case)
 
     def draw(axes, case, result, values):
         run, steady = result

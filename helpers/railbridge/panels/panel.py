@@ -92,7 +92,7 @@ class Panel:
         draw: Draw,
         say: Callable[[Case, Any, Mapping[str, Any]], str],
         *,
-        compute: Callable[[Case, Progress | None], Any] = Case.run,
+        compute: Callable[[Case, Progress | None], Any] = Case.compute,
         code: str = "",
         size: tuple[float, float] = (FIGURE_WIDTH, 4.6),
         heights: Sequence[float] | None = None,

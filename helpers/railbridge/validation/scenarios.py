@@ -98,7 +98,7 @@ def run(name: str = "paper", loads: str = "condensed", iterations: int | None = 
 
 @cache
 def _run(name: str, loads: str, iterations: int | None) -> Crossing:
-    return scenario(name, loads=loads, iterations=iterations).run()
+    return scenario(name, loads=loads, iterations=iterations).compute()
 
 
 def readings() -> list[tuple[dict[str, Any], float]]:
@@ -128,6 +128,6 @@ def readings() -> list[tuple[dict[str, Any], float]]:
         for direction, ahead in (("vertical", 0.0), ("lateral", np.pi / 2)):
             changes[f"track.{direction}.wavelength"] = reading["wavelength"]
             changes[f"track.{direction}.phase"] = reading["phase"] + ahead
-        crossing = base.replace(changes).run()
+        crossing = base.replace(changes).compute()
         result.append((reading, float(crossing.deviations.from_rigid[0])))
     return result
