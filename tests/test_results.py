@@ -69,9 +69,8 @@ def test_a_deck_of_modes_alone_says_what_it_cannot():
         time_step=2e-3,
     )
     known = rb.cross(rb.AxleTrain([0.0], [1e5]), DECK, speed=20.0, time_step=2e-3)
-    assert np.array_equal(
-        run.displacement(18.0)["displacement_z"], known.displacement(18.0)["displacement_z"]
-    )
+    alone = known.displacement(18.0, kept_only=True)["displacement_z"]
+    assert run.displacement(18.0)["displacement_z"] == pytest.approx(alone, rel=1e-9, abs=1e-18)
     assert run.envelope("moment_vertical", [18.0]) is None
     assert run.envelope("displacement_z", [18.0]) is not None
     for ask in (run.reactions, run.bearing_forces, lambda: run.section_forces(18.0)):

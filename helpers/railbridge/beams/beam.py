@@ -92,4 +92,5 @@ class Beam(BeamProperties):  # noqa: D101
             width=width,
             track_height=track_height,
             mass_per_metre=self.mass,
+            internal_damping=0.0 if np.isscalar(damping) else float(damping[1]),
         )
