@@ -38,7 +38,7 @@ from .response import SampledModes, lagged, sampled_modes
 __all__ = [
     "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
     "ModesOnly", "RATIO", "Recovery", "checked_damping", "damping_ratios", "rayleigh",
-    "rayleigh_ratio",
+    "rayleigh_ratio", "whole_group",
 ]  # fmt: skip
 
 SECTION_QUANTITIES = {
@@ -51,6 +51,8 @@ BEARING_QUANTITIES = {**REACTION_QUANTITIES, "moment_y": "N m", "moment_z": "N m
 """What a deck recovers of one bearing, with units; moments about the bearing itself."""
 
 
+_EQUAL = 1e-5
+"""Relative difference up to which frequencies count as equal: files give six digits."""
 RATIO = Range(least=0.0, most=0.5)
 """What a damping ratio may be, share of critical."""
 
@@ -89,6 +91,24 @@ def damping_ratios(damping: Sequence[float] | float, frequencies_hz: np.ndarray)
     if np.isscalar(damping):
         return np.full(len(frequencies_hz), damping)
     return rayleigh_ratio(*damping, frequencies_hz)
+
+
+def whole_group(frequencies_hz: np.ndarray, count: int) -> int:
+    """Return `count`, or the more modes it takes not to cut a group of equal frequencies.
+
+    Simple spans alike have equal frequencies, and only all of their modes together move each span.
+
+    Parameters
+    ----------
+    frequencies_hz : ndarray, shape (m,)
+        Ascending.
+    count : int
+    """
+    while 0 < count < len(frequencies_hz):
+        if frequencies_hz[count] > frequencies_hz[count - 1] * (1.0 + _EQUAL):
+            break
+        count += 1
+    return count
 
 
 @dataclass(frozen=True, eq=False)

@@ -393,7 +393,7 @@ class Crossing:
         """
         self._refuse_lacks()
         lines = {name: self.deck.recovery.section(name, x) for name in _FORCES}
-        return self._recovered(lines, SECTION_QUANTITIES, self_weight, f"x = {x:g} m")
+        return self.recovered(lines, SECTION_QUANTITIES, self_weight, f"x = {x:g} m")
 
     def reactions(self, self_weight: bool = False) -> dict[float, History]:
         """Return the forces of every bearing line on the deck, by place (m).
@@ -410,7 +410,7 @@ class Crossing:
         for support in self.deck.supports:
             lines = {n: self.deck.recovery.reaction(n, support) for n in REACTION_QUANTITIES}
             where = f"bearing at {support:g} m"
-            result[support] = self._recovered(lines, REACTION_QUANTITIES, self_weight, where)
+            result[support] = self.recovered(lines, REACTION_QUANTITIES, self_weight, where)
         return result
 
     def bearing_forces(self, self_weight: bool = False) -> dict[int, History]:
@@ -432,16 +432,31 @@ class Crossing:
         for number, (x, y, z) in enumerate(self.deck.bearings, start=1):
             lines = {n: self.deck.recovery.bearing(number, n) for n in BEARING_QUANTITIES}
             where = f"bearing {number} at x = {x:g}, y = {y:g}, z = {z:g} m"
-            result[number] = self._recovered(lines, BEARING_QUANTITIES, self_weight, where)
+            result[number] = self.recovered(lines, BEARING_QUANTITIES, self_weight, where)
         return result
 
     def _refuse_lacks(self) -> None:
         if self.deck.recovery.lacks:
             raise InputError("deck", self.deck.name, self.deck.recovery.lacks)
 
-    def _recovered(
-        self, lines: dict[str, Line | None], units: dict[str, str], self_weight: bool, where: str
+    def recovered(
+        self,
+        lines: dict[str, Line | None],
+        units: dict[str, str],
+        self_weight: bool = False,
+        where: str = "",
     ) -> History:
+        """Return the section forces or reactions that lines of the deck's `recovery` describe.
+
+        Parameters
+        ----------
+        lines : dict
+            By name; NaN is returned for None.
+        units : dict of str
+            Of every name.
+        self_weight : bool
+        where : str
+        """
         state, loads = self.state, self._loads
         known = {name: line for name, line in lines.items() if line is not None}
         statics = dict(zip(known, loads.of_lines(list(known.values())), strict=True))

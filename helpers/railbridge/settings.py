@@ -8,17 +8,27 @@ from typing import Annotated, Literal
 import numpy as np
 
 from . import errors
+from .decks import Deck
 from .errors import InputError, Range, check_fields
 from .guideways import Guideway
 from .tracks import Track
 from .trains import AnyTrain, Passage
 
-__all__ = ["LEAD_IN_SECONDS", "Options", "Settings", "bytes_needed", "check", "default_time_step"]
+__all__ = [
+    "COARSE_SAMPLES_PER_PERIOD", "LEAD_IN_SECONDS", "Options", "Settings", "bytes_needed", "check",
+    "default_time_step", "highest_frequency",
+]  # fmt: skip
 
 LEAD_IN_SECONDS = 7.5
 SAMPLES_PER_LENGTH = 10
 """Fewest samples per wavelength or notch."""
 SAMPLES_PER_DECK = 20
+SAMPLES_PER_PERIOD = 8
+"""Of the highest mode kept, in a step that is chosen: accelerations are then within 2 %."""
+COARSE_SAMPLES_PER_PERIOD = 3
+"""Of the highest mode kept; a step that leaves fewer spoils accelerations by 5 % and more."""
+FINEST_STEP = 1e-4
+"""s, that the deck's modes ask for."""
 STATIONS = 41
 """Places along the deck where envelopes are taken, ends included."""
 MEMORY_LIMIT = 2e9
@@ -45,7 +55,8 @@ class Options:
     track_offset : float or str
         Track centre line, m left of the deck axis, or the name of a track of the deck.
     time_step : float, optional
-        s; chosen if left out: at most 1 ms and a twentieth of the shortest wave or notch.
+        s; chosen if left out: at most 1 ms, a twentieth of the shortest wave or notch, and an
+        eighth of the period of the deck's highest mode.
     lead_in : float, optional
         m of irregular track before the deck; default 7.5 s of travel. 0: level track before the
         deck, the train at rest; wrong where the track then starts on the deck with a step (a phase
@@ -193,7 +204,9 @@ def _shortest(train: AnyTrain, track: Track) -> float:
 def _time_step(train: AnyTrain, deck: Guideway, track: Track, asked: Options) -> float:
     step, speed = asked.time_step, asked.speed
     if step is None:
-        return default_time_step(train, track, speed)
+        fine = SAMPLES_PER_PERIOD * highest_frequency(deck)
+        most = max(1.0 / fine, FINEST_STEP) if fine > 0.0 else np.inf
+        return default_time_step(train, track, speed, min(most, 1e-3))
     for length, samples, what in [
         (_shortest(train, track), SAMPLES_PER_LENGTH, "of irregularity"),
         (deck.length, SAMPLES_PER_DECK, "of deck"),
@@ -203,6 +216,17 @@ def _time_step(train: AnyTrain, deck: Guideway, track: Track, asked: Options) ->
             few += f"at most {length / samples / speed:.3g} s"
             raise InputError("time_step", step, few, "Leave time_step out to have it chosen")
     return step
+
+
+def highest_frequency(deck: Guideway) -> float:
+    """Return the highest frequency (Hz) with which a deck swings.
+
+    Modes of at least half the critical damping hardly do, and count no more than a deck whose modes
+    are not known.
+    """
+    if not isinstance(deck, Deck):
+        return 0.0
+    return float(deck.frequencies_hz[deck.damping_ratios < 0.5].max(initial=0.0))
 
 
 def default_time_step(train: AnyTrain, track: Track, speed: float, most: float = 1e-3) -> float:

@@ -106,7 +106,7 @@ class Box(BoxDimensions):  # noqa: D101
         return tuple(result)
 
     def beam_deck(
-        self, modes: int = 20, damping: tuple[float, float] | float = 0.0, **switches: bool
+        self, modes: int | None = None, damping: tuple[float, float] | float = 0.0, **switches: bool
     ) -> Deck:
         """Return the modal deck of the beam, its rails on top of the slab.
 
@@ -125,7 +125,7 @@ class Box(BoxDimensions):  # noqa: D101
 
     def shell_deck(
         self,
-        modes: int = 15,
+        modes: int | None = None,
         damping: tuple[float, float] | float = 0.0,
         mesh: BoxMesh | None = None,
     ) -> Deck:
@@ -134,12 +134,13 @@ class Box(BoxDimensions):  # noqa: D101
         Its shapes are the motion of the line between the heads of the two webs, at the middle plane
         of the slab: lateral and vertical their mean, twist their difference. What rails over the
         webs feel; a wheel between the webs also bends the slab. Section forces and reactions are
-        not recovered (`recovery` is None), and modes are not corrected statically.
+        not recovered (`recovery` is None), and modes are not corrected statically. Fifteen modes a
+        span if no number is given.
         """
         mesh = mesh or BoxMesh()
         damping = checked_damping(damping)
         shell = self.shell(mesh)
-        result = shell.modes(modes)
+        result = shell.modes(15 * len(self.spans) if modes is None else modes)
         ratios = damping_ratios(damping, result.frequencies_hz)
         return Deck(
             name=self.name,

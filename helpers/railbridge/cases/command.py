@@ -1,8 +1,8 @@
 """The command ``railbridge``: case files in, results out.
 
 Exit codes: 0 all is well; 1 the computer failed (disk, memory); 2 the case file or a path is wrong,
-with one line that names the key; 3 the iteration did not converge, results written all the same;
-130 interrupted, nothing half-written.
+with one line that names the key; 3 the iteration did not converge or settle, results written all
+the same; 130 interrupted, nothing half-written.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ import numpy as np
 
 from ..crossing import NotConvergedError
 from ..errors import InputError
+from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
 from . import copies, pages, shelf
@@ -66,7 +67,7 @@ results (in the folder of --out; files of these names in it are replaced):
 
 exit codes:
   0 done    1 out of memory or disk    2 bad case file or path
-  3 not converged (results are written)    130 interrupted
+  3 not converged, or not settled by run.iterations (results are written)    130 interrupted
 """
 
 
@@ -203,17 +204,22 @@ def _run(given: argparse.Namespace) -> int:
     progress.end()
     if code:
         _say(f"{message} What there is was written to {given.out}.")
+    elif unsettled(run):
+        # Said in words by the remark that was printed as a warning.
+        code = 3
+        _say(f"not settled: {_headline(loaded, run)}; written to {given.out}")
     elif not given.quiet:
         _say(f"{_headline(loaded, run)}; written to {given.out}")
     return code
 
 
 def _headline(loaded: Case, run: Crossing) -> str:
-    solved = (
-        f"converged in {run.iterations} iterations"
-        if run.converged
-        else f"solved ({run.settings.interaction})"
-    )
+    passes = f"{run.iterations} iteration{'s' * (run.iterations != 1)}"
+    solved = f"solved ({run.settings.interaction})"
+    if run.converged is not None:
+        solved = f"converged in {passes}"
+        if not run.converged:
+            solved = f"{passes}, last change {run.changes[-1]:.2g}"
     x = loaded.points[0]
     value, _ = run.displacement(x).extreme("displacement_z")
     return f"{solved}, displacement at x = {x:g} m is {value * 1e3:.4g} mm"

@@ -298,7 +298,7 @@ def _box_deck(name: str, t: Table) -> Deck:
     if t.model == "shell":
         with within("mesh"):
             mesh = BoxMesh(**(t.mesh.given if t.mesh else {}))
-        return girder.shell_deck(t.modes if t.has("modes") else 15, _damping(t), mesh)
+        return girder.shell_deck(t.modes, _damping(t), mesh)
     switches = {key: getattr(t, key) for key in ("shear", "rotary_inertia") if t.has(key)}
     return girder.beam_deck(t.modes, _damping(t), **switches)
 

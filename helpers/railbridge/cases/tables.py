@@ -309,7 +309,8 @@ _SPANS = {
     "spans": key(numbers(above=0.0, unit="m"), "Several spans, m. Or length."),
 }
 _MODES = key(
-    number(least=1, whole=True), "How many modes are kept, the lowest that loads can excite.", 20
+    number(least=1, whole=True),
+    "How many modes are kept, the lowest that loads can excite; chosen if left out.",
 )
 _DAMPING = "Rayleigh { ratio, frequencies_hz }, or { modal }, the same ratio for every mode."
 _BEARINGS = "Bearings; default: y, z and roll at both ends of every span, x at the first."
