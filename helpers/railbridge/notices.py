@@ -10,10 +10,13 @@ from .results import Crossing
 from .settings import COARSE_SAMPLES_PER_PERIOD, LEAD_IN_SECONDS, highest_frequency
 from .trains import steady_forces
 
-__all__ = ["UNSETTLED", "remarks", "unsettled"]
+__all__ = ["remarks", "unsettled"]
 
-UNSETTLED = 0.01
-"""Last change of the wheel forces from which on a given number of passes is called unsettled."""
+FAR = 0.05
+"""Last change of the wheel forces from which on a given number of passes stopped far from the
+end."""
+GROWING = 0.01
+"""Smallest change that, larger than one before it, is called a divergence."""
 _STILL = 1e-3
 """Motion of a deck's end, share of its largest, below which it is at rest."""
 
@@ -33,8 +36,11 @@ def remarks(run: Crossing) -> tuple[Remark, ...]:
 
 
 def unsettled(run: Crossing) -> bool:
-    """Whether a given number of passes ended while the forces still changed by a percent."""
-    return run.converged is False and bool(run.changes) and not run.changes[-1] < UNSETTLED
+    """Whether a given number of passes, two or more, diverged or stopped far from the end."""
+    if run.converged is not False or len(run.changes) < 2:
+        return False
+    *before, last = run.changes
+    return not (last < FAR and (last < GROWING or last < min(before)))
 
 
 def _only_modes(run: Crossing) -> list[Remark]:
@@ -96,18 +102,18 @@ def _not_settled(run: Crossing) -> list[Remark]:
     text = f"= {run.iterations}: the last pass still changed the wheel forces by {last:.2g}"
     if not unsettled(run):
         return [Remark("iterations", text + " of their dynamic part.")]
-    least = int(np.argmin(run.changes))
+    least = int(np.nanargmin(run.changes))
     if least < len(run.changes) - 1:
-        text += f", more than pass {least + 1} did ({run.changes[least]:.2g}): they diverge"
+        text += f", pass {least + 1} by {run.changes[least]:.2g}: they diverge"
     return [ResultWarning("iterations", text + ". These numbers are not a solution.")]
 
 
 def _pulling(run: Crossing) -> list[Remark]:
     """Name the wheel that pulls on the rail hardest."""
-    unloading = run.wheel_unloading
-    if not np.nanmax(unloading) > 1.0:
+    unloading = np.nan_to_num(run.wheel_unloading)
+    if not unloading.max() > 1.0:
         return []
-    i, k = np.unravel_index(np.nanargmax(unloading), unloading.shape)
+    i, k = np.unravel_index(np.argmax(unloading), unloading.shape)
     wheel, t = run.train.wheels[i], run.time[k]
     others = int(np.sum(unloading.max(axis=1) > 1.0)) - 1
     text = (

@@ -230,8 +230,11 @@ class Crossing:
 
     @cached_property
     def wheel_unloading(self) -> np.ndarray:
-        """1 - force / static force of every wheel, shape (wheels, n); 1: it would lift."""
-        static = np.array([wheel.static_load for wheel in self.train.wheels])
+        """1 - force / static force of every wheel, shape (wheels, n); 1: it would lift.
+
+        NaN for a wheel that carries nothing.
+        """
+        static = np.array([wheel.static_load or np.nan for wheel in self.train.wheels])
         return 1.0 + self.wheel_forces[:, 1] / static[:, None]
 
     @cached_property

@@ -27,6 +27,8 @@ SAMPLES_PER_PERIOD = 8
 """Of the highest mode kept, in a step that is chosen: accelerations are then within 2 %."""
 COARSE_SAMPLES_PER_PERIOD = 3
 """Of the highest mode kept; a step that leaves fewer spoils accelerations by 5 % and more."""
+HEAVY = 0.2
+"""Damping ratio from which on a mode follows its load more than it rings."""
 FINEST_STEP = 1e-4
 """s, that the deck's modes ask for."""
 STATIONS = 41
@@ -221,12 +223,12 @@ def _time_step(train: AnyTrain, deck: Guideway, track: Track, asked: Options) ->
 def highest_frequency(deck: Guideway) -> float:
     """Return the highest frequency (Hz) with which a deck swings.
 
-    Modes of at least half the critical damping hardly do, and count no more than a deck whose modes
-    are not known.
+    Modes damped more than `HEAVY` hardly ring and ask for no finer step; nor does a deck whose
+    modes are not known.
     """
     if not isinstance(deck, Deck):
         return 0.0
-    return float(deck.frequencies_hz[deck.damping_ratios < 0.5].max(initial=0.0))
+    return float(deck.frequencies_hz[deck.damping_ratios < HEAVY].max(initial=0.0))
 
 
 def default_time_step(train: AnyTrain, track: Track, speed: float, most: float = 1e-3) -> float:

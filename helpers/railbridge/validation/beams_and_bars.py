@@ -6,9 +6,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ..beams.beam import Beam
-from ..crossing import cross
 from ..trains import AxleTrain
-from .crossings import deck_of
+from .crossings import deck_of, quietly
 from .references import FORCE, car_in_plane
 from .rows import Row
 
@@ -82,7 +81,7 @@ def torsion_rows() -> list[Row]:
     quantity = "twist under a couple, per N m"
     rows.append(Row(case, quantity, "1e-12 rad", *numbers, "exact", source, 1e-9))
 
-    run = cross(
+    run = quietly(
         AxleTrain([0.0], [FORCE]),
         deck,
         speed=speed,
@@ -120,7 +119,7 @@ def damping_rows() -> list[Row]:
     """
     _, beam = car_in_plane()
     speed, half_periods = 50.0, 6
-    run = cross(
+    run = quietly(
         AxleTrain([0.0], [FORCE]),
         deck_of(beam, 8),
         speed=speed,
