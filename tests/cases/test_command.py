@@ -12,6 +12,7 @@ import tomllib
 import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -608,6 +609,58 @@ def test_random_arguments_never_give_a_traceback(tmp_path_factory, arguments):
         assert cli.main(arguments) in (0, 2)
     except SystemExit as stop:
         assert stop.code == 2
+
+
+# ---- what is said of a result
+
+
+LIGHT = """
+[deck]
+length = 60.0
+bending_stiffness_vertical = 3e10
+mass = 3000.0
+damping = { modal = 0.01 }
+[train]
+vehicle = "xia2000"
+cars = 8
+[run]
+speed = 60.0
+time_step = 4e-3
+iterations = 8
+"""
+
+
+def test_passes_that_diverge_say_so_in_word_code_and_remarks(tmp_path, capsys):
+    """They said "solved", and exit code 0, of a deck that sagged by metres."""
+    (tmp_path / "light.toml").write_text(LIGHT)
+    arguments = ["run", str(tmp_path / "light.toml"), "--out", str(tmp_path / "out")]
+    assert cli.main([*arguments, "--no-histories"]) == 3
+    err = capsys.readouterr().err
+    assert "warning: run.iterations = 8: the last pass still changed" in err
+    assert "railbridge: not settled: 8 iterations, last change " in err and "solved" not in err
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert any(text.startswith("run.iterations = 8: ") for text in summary["remarks"])
+    assert summary["converged"] is False and summary["changes"][-1] > 0.01
+    assert cli.main([*arguments, "--no-histories", "--set", "run.iterations=1"]) == 0
+    assert "1 iteration, last change 1, " in capsys.readouterr().err
+
+
+def test_wheel_forces_on_the_deck_stand_beside_those_of_the_whole_record(tmp_path):
+    case = rb.case("paper").replace({"train.cars": 2, "run.time_step": 2e-3})
+    run = case.compute()
+    summary = case.summary(run)
+    forces = run.wheel_forces[:, 1]
+    on = np.array([
+        (20.0 * run.time - w.delay > -1e-6) & (20.0 * run.time - w.delay < 36.0 + 1e-6)
+        for w in run.train.wheels
+    ])  # fmt: skip
+    told = summary["wheel_force_z"]
+    assert told["min"]["value"] == forces.min() < told["on_deck"]["min"]["value"]
+    assert told["on_deck"]["min"]["value"] == forces[on].min()
+    assert told["on_deck"]["max"]["value"] == forces[on].max()
+    unloading = summary["wheel_unloading"]
+    assert unloading["on_deck"]["max"]["value"] == run.wheel_unloading[on].max()
+    assert unloading["max"]["value"] >= unloading["on_deck"]["max"]["value"]
 
 
 # ---- the page that describes it
