@@ -12,7 +12,7 @@ from .trains import steady_forces
 
 __all__ = ["remarks", "unsettled"]
 
-FAR = 0.05
+FAR = 0.1
 """Last change of the wheel forces from which on a given number of passes stopped far from the
 end."""
 GROWING = 0.01
