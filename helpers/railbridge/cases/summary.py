@@ -63,8 +63,8 @@ def summarize(
     place, move over (V -> 0); ``dynamic_factor`` is the dynamic extreme on the same side divided by
     it. With ``loads`` other than ``wheels`` the factor therefore also holds what condensing costs.
 
-    Accelerations are those up to a cut-off, the last of ``deck_frequencies_hz``. With more modes they
-    settle under Rayleigh damping, slowly under one ratio for all, and not at all without damping.
+    Accelerations are those up to a cut-off, the last of ``deck_frequencies_hz``. With more modes
+    they settle under Rayleigh damping, slowly under one ratio for all, not at all without damping.
     """
     s, deck = run.settings, run.deck
     remarks = notices.remarks(run) if remarks is None else remarks
