@@ -29,8 +29,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .. import errors
-from ..decks import Deck, rayleigh_ratio
-from ..errors import InputError
+from ..decks import Deck, rayleigh_ratio, whole_group
+from ..errors import InputError, Remark, ResultWarning
 from ..guideways import PiecewiseCubic
 from .interpolation import cubics, hermite, parabolas, spline
 from .nodes import Nodes, RailLine
@@ -42,6 +42,10 @@ _LIKELY_MASS = 100.0, 300e3
 
 From foot bridges to ballasted concrete with several tracks.
 """
+
+
+_STILL = 1e-3
+"""Motion in the middle of a span, share of the largest anywhere, below which it stands still."""
 
 
 @dataclass(frozen=True)
@@ -184,9 +188,12 @@ def deck_from_modes(
         remedy = "Does it run along the deck's bearings?"
         raise InputError("line", None, "stands still in every mode", remedy)
     kept = np.flatnonzero(np.sqrt(size.sum(axis=1) / size.sum(axis=1).max()) > 1e-6)
+    everything = kept
     if count is not None:
         kept = kept[: errors.integer("count", count, least=1, most=len(kept))]
     frequencies = model.frequencies_hz[kept]
+    remarks = _cut(model.frequencies_hz[everything], len(kept))
+    remarks += _still(functions, kept, supports)
     _refuse_units(line, supports, frequencies, size[kept], unusual)
     if model.masses is None:
         _warn_of_overlap(model, motion, kept)
@@ -211,7 +218,41 @@ def deck_from_modes(
         tracks=dict(tracks or {}),
         width=width,
         track_height=track_height,
+        remarks=tuple(remarks),
     )
+
+
+def _cut(frequencies: np.ndarray, count: int) -> list[Remark]:
+    """Say where so many of the modes end in the middle of a group of equal frequencies."""
+    whole = whole_group(frequencies, count)
+    if whole == count:
+        return []
+    text = (
+        f"= {count} cuts a group of equal frequencies, {frequencies[count]:.6g} Hz: only together "
+        f"do they move the whole deck. Take {whole}."
+    )
+    return [ResultWarning("modes.count", text)]
+
+
+def _still(functions: PiecewiseCubic, kept: np.ndarray, supports: Sequence[float]) -> list[Remark]:
+    """Name a span that no mode moves up and down, as where a program was asked for too few."""
+    edges = np.unique([functions.edges[0], functions.edges[-1], *map(float, supports)])
+    inside = (edges[1:] + edges[:-1]) / 2
+    moving = np.abs(functions(inside)[:, kept, 1]).max(axis=1)
+    everywhere = np.linspace(edges[0], edges[-1], 201)
+    largest = np.abs(functions(everywhere)[:, kept, 1]).max()
+    if largest == 0.0:
+        return [ResultWarning("modes", "move nothing up and down: vertical results are null.")]
+    still = np.flatnonzero((moving < _STILL * largest) & (np.diff(edges) > 1e-6 * edges[-1]))
+    if not len(still):
+        return []
+    i = still[0]
+    text = (
+        f"move nothing up and down from x = {edges[i]:g} to {edges[i + 1]:g} m"
+        + f", nor in {len(still) - 1} other spans" * (len(still) > 1)
+        + ": too few modes were written."
+    )
+    return [ResultWarning("modes", text)]
 
 
 def _along(
