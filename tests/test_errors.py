@@ -151,3 +151,25 @@ def test_a_dataclass_is_held_to_the_types_of_its_fields():
     ]:
         with pytest.raises(InputError, match=words):
             Example(**{"size": 1.0, **given})
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_place_that_misses_an_end_by_rounding_is_that_end(sign):
+    ends = (0.0, 12.1, 36.6)
+    for end in ends:
+        assert errors.place("x", end + sign * 1e-12, ends) == end
+        assert errors.place("x", end + sign * 3e-8, ends) == end  # 36.6e-9 are rounding
+        assert errors.place("x", end + sign * 3e-6, ends, slack=errors.ROUNDED) == end
+    inside = 12.1 + sign * 1e-6
+    assert errors.place("x", inside, ends) == inside
+    assert errors.places("x", [0.0, 36.6 + 1e-9], ends).tolist() == [0.0, 36.6]
+
+
+@pytest.mark.parametrize("value", [-1e-6, 36.60001, 40, "18", None, np.nan])
+def test_a_place_off_the_deck_is_refused_with_digits_enough_to_see_why(value):
+    with pytest.raises(InputError, match=r"^x( = |: ).*must be a finite number"):
+        errors.place("x", value, (0.0, 36.6))
+    with pytest.raises(InputError, match=r"^x\[2\]( = |: )"):
+        errors.places("x", [1.0, value], (0.0, 36.6))
+    with pytest.raises(InputError, match=r"at most 36\.599999 m"):
+        errors.place("x", 36.6, (0.0, 36.599999))

@@ -18,7 +18,7 @@ files are made from the same types.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from functools import cache
@@ -28,9 +28,9 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 import numpy as np
 
 __all__ = [
-    "FieldType", "InputError", "InputWarning", "Range", "Remark", "ResultWarning", "boolean",
-    "check_fields", "choice", "did_you_mean", "field_types", "frozen", "integer", "joined", "keys",
-    "number", "numbers", "plain", "table", "text", "within",
+    "FieldType", "InputError", "InputWarning", "ROUNDED", "Range", "Remark", "ResultWarning",
+    "boolean", "check_fields", "choice", "did_you_mean", "field_types", "frozen", "integer",
+    "joined", "keys", "number", "numbers", "place", "places", "plain", "table", "text", "within",
 ]  # fmt: skip
 
 
@@ -182,8 +182,9 @@ class Range:
     def allowed(self) -> str:
         """The range in words."""
         bounds = [("above", self.above), ("at least", self.least), ("at most", self.most)]
-        words = " and ".join(f"{word} {bound:g}" for word, bound in bounds if bound is not None)
-        return " ".join(part for part in ("must be a finite number", words, self.unit) if part)
+        words = " and ".join(f"{word} {bound:.9g}" for word, bound in bounds if bound is not None)
+        unit = self.unit if words else self.unit and f"in {self.unit}"
+        return " ".join(part for part in ("must be a finite number", words, unit) if part)
 
     def checked(self, field: str, value: Any) -> float | int:
         """Return `value` as a float (an int if whole) within the range, or raise `InputError`."""
@@ -228,6 +229,45 @@ def numbers(field: str, values: Any, *, count: int | None = None, **limits: Any)
     if count is not None and len(result) != count:
         raise InputError(field, values, f"must hold {count} numbers, it holds {len(result)}")
     return np.array(result, dtype=float)
+
+
+ROUNDED = 1e-6
+"""Share of a length by which a place may miss an end where people or programs round: 99.9999."""
+
+
+def place(
+    field: str, value: Any, ends: Sequence[float], *, slack: float = 1e-9, remedy: str = ""
+) -> float:
+    """Return a place between the first and the last of some ends, or raise `InputError`.
+
+    A place that misses an end by rounding only is that end: 12.1 + 12.2 + 12.3 is not 36.6.
+
+    Parameters
+    ----------
+    field : str
+    value : float
+        m.
+    ends : sequence of float
+        m, ascending; those between the first and the last attract places likewise.
+    slack : float
+        Share of the whole length (of a metre where that is shorter) that is rounding.
+    remedy : str
+    """
+    value = number(field, value, unit="m", remedy=remedy)
+    least, most = float(ends[0]), float(ends[-1])
+    nearest = float(min(ends, key=lambda end: abs(end - value)))
+    if abs(value - nearest) <= slack * max(most - least, 1.0):
+        return nearest
+    return number(field, value, least=least, most=most, unit="m", remedy=remedy)
+
+
+def places(
+    field: str, values: Any, ends: Sequence[float], *, slack: float = 1e-9, remedy: str = ""
+) -> np.ndarray:
+    """Return several places as a 1-D array, m; see `place`."""
+    given = numbers(field, values, unit="m").tolist()
+    named = ((f"{field}[{i}]", value) for i, value in enumerate(given, start=1))
+    return np.array([place(*each, ends, slack=slack, remedy=remedy) for each in named])
 
 
 # ---- other kinds of values

@@ -233,10 +233,9 @@ class Guideway:
                 )
             errors.choice("track_offset", track, self.tracks)
             return self.tracks[track]
-        limit = self.width / 2 if self.width else None
-        return errors.number(
-            "track_offset", track, least=None if limit is None else -limit, most=limit, unit="m"
-        )
+        if not self.width:
+            return errors.number("track_offset", track, unit="m")
+        return errors.place("track_offset", track, (-self.width / 2, self.width / 2))
 
     def stations(
         self, delays: np.ndarray, speed: float, time_step: float, samples: int

@@ -293,6 +293,7 @@ class Crossing:
         self_weight : bool
             Whether the sag under the deck's own weight is added.
         """
+        x = errors.place("x", x, (0.0, self.deck.length))
         history = self._motion("displacement", x, self.state.q, ("m", "m", "rad"))
         if self_weight:
             line = self.deck.recovery.section("displacement_z", x)
@@ -315,7 +316,7 @@ class Crossing:
         return self._motion("acceleration", x, self._modal_acceleration, units)
 
     def _motion(self, kind: str, x: float, modal: np.ndarray, units: tuple[str, ...]) -> History:
-        x = errors.number("x", x, least=0.0, most=self.deck.length, unit="m")
+        x = errors.place("x", x, (0.0, self.deck.length))
         shape = self.deck.shapes(np.array([x]))[0]
         rolls = "rotation_x" if kind == "displacement" else f"{kind}_roll"
         names = [f"{kind}_y", f"{kind}_z", rolls]
@@ -339,6 +340,7 @@ class Crossing:
             A deck of which only modes are known.
         """
         self._refuse_lacks()
+        x = errors.place("x", x, (0.0, self.deck.length))
         lines = {name: self.deck.recovery.section(name, x) for name in _FORCES}
         return self._recovered(lines, SECTION_QUANTITIES, self_weight, f"x = {x:g} m")
 
@@ -418,7 +420,7 @@ class Crossing:
         errors.choice("quantity", quantity, ENVELOPE)
         if x is None:
             x = np.linspace(0.0, self.deck.length, STATIONS).round(9)
-        x = errors.numbers("x", x, least=0.0, most=self.deck.length, unit="m")
+        x = errors.places("x", x, (0.0, self.deck.length))
         deck, state = self.deck, self.state
         if quantity in ("displacement_z", "acceleration_z"):
             if not deck.has["z"]:

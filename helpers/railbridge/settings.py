@@ -161,7 +161,7 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
 def _track_offset(train: AnyTrain, deck: Guideway, given: float | str) -> float:
     offset = deck.track_offset(given)
     for wheel in train.wheels:
-        if deck.width is not None and abs(offset + wheel.y) > deck.width / 2:
+        if deck.width is not None and abs(offset + wheel.y) > deck.width / 2 + 1e-9:
             where = f"wheel {wheel.number} of car {wheel.car} at y = {offset + wheel.y:g} m"
             allowed = f"{where} is off the deck, half width {deck.width / 2:g} m"
             remedy = "Move the track towards the axis, or correct the deck's width"

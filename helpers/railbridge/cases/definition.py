@@ -81,7 +81,7 @@ class Case:
             settings = check(train, deck, track, **options)
         given = t.output.points if t.output is not None else None
         points = [deck.length / 2] if given is None else given
-        points = errors.numbers("output.points", points, most=deck.length, unit="m")
+        points = errors.places("output.points", points, (0.0, deck.length))
         made = {
             "content": content, "train": train, "deck": deck, "track": track, "options": options,
             "settings": settings, "points": points,

@@ -12,7 +12,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from .. import exchange
+from .. import errors, exchange
 from ..beams import Beam, Bearing, Section
 from ..boxes import Box, BoxMesh, Pads
 from ..decks import Deck, rayleigh
@@ -258,21 +258,17 @@ def _beam_deck(name: str, t: Table) -> Deck:
 
 
 def _refuse_beside(y: float, width: float | None) -> None:
-    if width is not None and abs(y) > width / 2:
+    if width is not None and abs(y) > width / 2 + 1e-9:
         allowed = f"is off the deck, half width {width / 2:g} m"
         raise InputError("y", y, allowed, "Move the bearing below the deck, or correct the width")
 
 
 def _tracks(t: Table) -> dict[str, float]:
     """Return the named tracks, m; refuse one beside the deck."""
-    for name, y in (t.tracks or {}).items():
-        if t.width is not None and abs(y) > t.width / 2:
-            allowed = (
-                f"must be a finite number at least {-t.width / 2:g} and at most {t.width / 2:g} m"
-            )
-            raise InputError(
-                f"tracks.{name}", y, allowed, "Tracks lie on the deck, correct the width"
-            )
+    half, remedy = (t.width or 0.0) / 2, "Tracks lie on the deck, correct the width"
+    if t.width is not None:
+        for name, y in (t.tracks or {}).items():
+            errors.place(f"tracks.{name}", y, (-half, half), remedy=remedy)
     return t.tracks or {}
 
 

@@ -109,14 +109,16 @@ class ModesTable:
         """
         model = read_modes(self.nodes, self.modes, self.masses, self.units, self.axes)
         line = model.nodes.line(self.rail, self.axis)
-        errors.numbers("supports", self.supports, least=0.0, most=line.length, unit="m")
+        supports = errors.places(
+            "supports", self.supports, (0.0, line.length), slack=errors.ROUNDED
+        )
         with within(names=_IN_THE_TABLE):
             return deck_from_modes(
                 model,
                 line,
                 damping=damping,
                 count=self.count,
-                supports=self.supports,
+                supports=supports,
                 unusual=self.unusual,
                 **own,
             )
