@@ -145,6 +145,8 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
     errors.keys("", options, [f.name for f in fields(Options)], ["speed"])
     asked = Options(**options)
     train.formation[0].condensation(asked.loads)
+    if asked.excitation == "car":
+        _ = [vehicle.front for vehicle, _ in train.kinds()]  # which each of them must have
     step = _time_step(train, deck, track, asked)
     advance = asked.speed * step
     chosen = {

@@ -23,7 +23,7 @@ from ..tracks import Table as MeasuredTrack
 from ..trains import AnyTrain, AxleTrain, Train
 from ..vehicles import Body, Spring, Vehicle
 from . import shelf, tables
-from .cars import CAR_PARAMETERS, two_bogie_car
+from .cars import CAR_PARAMETERS, OPTIONAL_PARAMETERS, two_bogie_car
 from .tabletypes import Table, checked
 
 __all__ = [
@@ -63,7 +63,8 @@ def car_parameters(source: str | Path) -> dict[str, float]:
         A shipped name (``xia2000``) or a ``.csv`` file.
     """
     units = {name: bounds.unit for name, bounds in CAR_PARAMETERS.items()}
-    return shelf.read_parameters(shelf.data_file("vehicles", source), units)
+    path, same = shelf.data_file("vehicles", source), {"static_wheelset_mass": "wheelset_mass"}
+    return shelf.read_parameters(path, units, OPTIONAL_PARAMETERS, same)
 
 
 def _vehicle_from_table(name: str, content: dict[str, Any]) -> Vehicle:

@@ -48,7 +48,8 @@ class ModesTable:
         CSV file of the nodal masses: node, mass, inertia_x, inertia_y, inertia_z. With it the modes
         are checked for orthogonality.
     units : (length, mass), optional
-        Units of the model, as ["mm", "t"]; needed where the files do not say them.
+        Units of the model, as ["mm", "t"] or ["in", "lbf s2/in"]; a unit without a name is the
+        number of metres or kilograms that it is. Needed where the files do not say them.
     axes : three of x, -x, y, -y, z, -z
         The model's axes that point forward, left and up.
     rail : table, optional
@@ -68,7 +69,7 @@ class ModesTable:
     nodes: str
     modes: str
     masses: str | None = None
-    units: tuple[str, ...] | None = None
+    units: tuple[str | float, ...] | None = None
     axes: tuple[ModelAxis, ModelAxis, ModelAxis] = ("x", "y", "z")
     rail: NodeChoice | NodeRows | None = None
     axis: AxisPlace | None = None
