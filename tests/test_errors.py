@@ -173,3 +173,42 @@ def test_a_place_off_the_deck_is_refused_with_digits_enough_to_see_why(value):
         errors.places("x", [1.0, value], (0.0, 36.6))
     with pytest.raises(InputError, match=r"at most 36\.599999 m"):
         errors.place("x", 36.6, (0.0, 36.599999))
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("plain, \u00fc and \U0001f600", "plain, \u00fc and \U0001f600"),
+        ("\x1b[31mred\x07", "\\x1b[31mred\\x07"),
+        ("a\nb\t\x7f\x9b", "a\\nb\\t\\x7f\\x9b"),
+        ("right\u202eto left\u2066\u2028", "right\\u202eto left\\u2066\\u2028"),
+        ("half \udcff", "half \\udcff"),
+    ],
+)
+def test_control_characters_are_shown(text, shown):
+    assert errors.printable(text) == shown
+    assert shown in str(InputError("a", None, text)) and shown in str(errors.InputWarning("", text))
+    assert shown in str(InputError(text, 1, "no", source=text))
+
+
+def test_representations_fit_into_three_lines():
+    @dataclass(frozen=True, repr=False)
+    class Inner:
+        name: str
+
+        __repr__ = errors.brief
+
+    @dataclass(frozen=True)
+    class Outer:
+        __repr__ = errors.brief
+
+        a: object
+        b: object = 2.0
+
+    assert repr(Outer(np.zeros((3, 4)))) == "Outer(a=<array 3 x 4>, b=2.0)"
+    assert repr(Outer([1, 2], Inner("x"))) == "Outer(a=[1, 2], b=Inner('x'))"
+    assert repr(Outer(tuple(range(99)), {"k": 1})) == "Outer(a=<99 items>, b=[k: 1])"
+    assert repr(Outer("y" * 500)).startswith("Outer(a='yyyy") and len(repr(Outer("y" * 500))) < 100
+    assert repr(Outer(Outer(1))) == "Outer(a=Outer(...), b=2.0)"
+    long = Outer(*[[Inner("n" * 12)] * 3] * 2)
+    assert len(repr(long)) <= 240 and "\n" not in repr(long)

@@ -107,3 +107,17 @@ def test_the_end_of_a_deck_is_its_end_however_it_is_rounded(spans):
         for ask in (run.displacement, run.velocity, run.acceleration, run.section_forces):
             with pytest.raises(rb.InputError, match="^x = "):
                 ask(x)
+
+
+def test_what_one_works_with_is_shown_in_three_lines():
+    car = rb.vehicle("xia2000")
+    beam = rb.Beam("b", (10.0,) * 25, 1e4, 1e9)
+    track = rb.Track(rb.Table(np.arange(1000.0), np.zeros(1000)))
+    shown = [
+        car, car.modes(), car.system, RUN.train, rb.AxleTrain(np.arange(90.0), [1e5] * 90), track,
+        track.rail("vertical", "left"), RUN.settings, RUN.spectrum, beam.mesh.modes(3),
+        rb.case("paper"), rb.case("paper").train.car(1), RUN.deck.shapes,
+    ]  # fmt: skip
+    for thing in shown:
+        text = repr(thing)
+        assert type(thing).__name__ in text and len(text) <= 240 and "\n" not in text

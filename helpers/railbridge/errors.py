@@ -20,7 +20,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
@@ -29,8 +29,9 @@ import numpy as np
 
 __all__ = [
     "FieldType", "InputError", "InputWarning", "ROUNDED", "Range", "Remark", "ResultWarning",
-    "boolean", "check_fields", "choice", "did_you_mean", "field_types", "frozen", "integer",
-    "joined", "keys", "number", "numbers", "place", "places", "plain", "table", "text", "within",
+    "boolean", "brief", "check_fields", "choice", "did_you_mean", "field_types", "frozen",
+    "integer", "joined", "keys", "number", "numbers", "place", "places", "plain", "printable",
+    "table", "text", "within",
 ]  # fmt: skip
 
 
@@ -57,7 +58,7 @@ class InputError(ValueError):
         place = ": ".join(part for part in (source, field) if part)
         given = "" if value is None else f" = {_short(value)}"
         advice = f" {remedy}" + "." * (not remedy.endswith("?")) if remedy else ""
-        super().__init__(f"{place}{given}: {allowed}.{advice}")
+        super().__init__(printable(f"{place}{given}: {allowed}.{advice}"))
         self.field, self.value, self.allowed, self.remedy = field, value, allowed, remedy
         self.source = source
 
@@ -86,7 +87,7 @@ class Remark(UserWarning):
     """
 
     def __init__(self, field: str, text: str) -> None:
-        super().__init__(f"{field} {text}" if field else text)
+        super().__init__(printable(f"{field} {text}" if field else text))
         self.field, self.text = field, text
 
     def moved(self, path: str = "", names: Mapping[str, str] | None = None) -> Remark:
@@ -142,8 +143,47 @@ def _short(value: Any) -> str:
         value = value.item()
     if isinstance(value, np.ndarray):
         value = value.tolist()
-    text = repr(value)
+    try:
+        text = repr(value)
+    except Exception:  # a whole number of too many digits, or anybody's object
+        text = f"<{type(value).__name__}>"
     return text if len(text) <= 60 else text[:57] + "..."
+
+
+def printable(text: str) -> str:
+    r"""Return a text whose control characters are shown, not obeyed: ``\x1b`` for an escape.
+
+    A terminal would obey those in names that come from files.
+    """
+    if text.isprintable():
+        return text
+    shown = (c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    return "".join(shown)
+
+
+def brief(thing: Any) -> str:
+    """Return a representation of a dataclass that fits into three lines.
+
+    What is long is counted, arrays give their shape, and parts of parts are left out.
+    """
+    shown = [f for f in fields(thing) if f.repr]
+    parts = ", ".join(f"{f.name}={_brief(getattr(thing, f.name))}" for f in shown)
+    text = f"{type(thing).__name__}({parts})"
+    return text if len(text) <= 240 else text[:235] + " ...)"
+
+
+def _brief(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return f"<array {' x '.join(map(str, value.shape))}>"
+    if is_dataclass(value) and not isinstance(value, type):
+        name = getattr(value, "name", None)
+        return type(value).__name__ + (f"({name!r})" if isinstance(name, str) else "(...)")
+    if isinstance(value, (list, tuple, Mapping)) and len(value):
+        inside = value.items() if isinstance(value, Mapping) else ((None, v) for v in value)
+        parts = [("" if k is None else f"{k}: ") + _brief(v) for k, v in list(inside)[:7]]
+        text = ", ".join(parts)
+        return f"[{text}]" if len(value) <= 6 and len(text) <= 60 else f"<{len(value)} items>"
+    return _short(value)
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

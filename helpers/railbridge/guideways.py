@@ -16,7 +16,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from . import errors
-from .errors import InputError
+from .errors import InputError, brief
 
 __all__ = ["COMPONENTS", "Guideway", "PiecewiseCubic", "Stations"]
 
@@ -36,6 +36,8 @@ class PiecewiseCubic:
         Powers 0..3 of the local coordinate 0..1, for n functions of three components (y, z, roll),
         or of as many as there are.
     """
+
+    __repr__ = brief
 
     edges: np.ndarray
     coefficients: np.ndarray
@@ -197,6 +199,8 @@ class Guideway:
         Rails above the deck axis, m. A lateral wheel force then twists the deck, M_x = -h F_y, and
         the rail moves sideways by v - h theta.
     """
+
+    __repr__ = brief
 
     name: str
     length: float

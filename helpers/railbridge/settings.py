@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from . import errors
-from .errors import InputError, Range, check_fields
+from .errors import InputError, Range, brief, check_fields
 from .guideways import Guideway
 from .tracks import Track
 from .trains import AnyTrain, Passage
@@ -70,6 +70,8 @@ class Options:
         without twist (a guess at the paper's reading).
     """
 
+    __repr__ = brief
+
     speed: Annotated[float, Range(above=0.0, most=200.0, unit="m/s", remedy=_IN_METRES)]
     loads: Literal["wheels", "bogies", "condensed"] = "wheels"
     interaction: Literal["iterate", "rigid", "direct"] = "iterate"
@@ -113,6 +115,8 @@ class Settings(Options):
     samples : int
         Samples from t = 0, when the first axle enters, to the end of the tail.
     """
+
+    __repr__ = brief
 
     samples: int
 

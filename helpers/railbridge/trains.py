@@ -20,7 +20,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from . import errors
-from .errors import InputError, Range, check_fields, frozen
+from .errors import InputError, Range, brief, check_fields, frozen
 from .tracks import FadeIn, Notch, Track
 from .vehicles import Vehicle, WheelResponse
 
@@ -105,6 +105,8 @@ class Condensation:
         several axles.
     """
 
+    __repr__ = brief
+
     offsets: np.ndarray
     matrix: np.ndarray
 
@@ -126,6 +128,8 @@ class Car:
     notches : tuple of (Notch, tuple of int)
         Notches of its wheels, and which of them (from 0) each is on.
     """
+
+    __repr__ = brief
 
     number: int
     centre: float
@@ -358,6 +362,8 @@ class Train(AnyTrain):
         Wheel irregularities.
     """
 
+    __repr__ = brief
+
     vehicle: Vehicle | tuple[Vehicle, ...]
     cars: Annotated[int, Range(least=1, most=1000, whole=True)] | None = None
     car_spacing: Annotated[float, Range(above=0.0, unit="m")] | None = None
@@ -467,6 +473,8 @@ class AxleTrain(AnyTrain):
     loads : sequence of float
         N of each axle, down positive.
     """
+
+    __repr__ = brief
 
     axles: Annotated[tuple[float, ...], Range(least=0.0, unit="m")]
     loads: Annotated[tuple[float, ...], Range(above=0.0, unit="N")]

@@ -24,7 +24,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from . import errors
-from .errors import InputError, Range, check_fields, frozen, within
+from .errors import InputError, Range, brief, check_fields, frozen, within
 from .response import LinearSystem, second_order_system
 from .units import G
 
@@ -162,6 +162,8 @@ class Modes:
         The freedom that carries most of the kinetic energy.
     """
 
+    __repr__ = brief
+
     frequencies_hz: np.ndarray
     damping_ratios: np.ndarray
     shapes: np.ndarray
@@ -206,6 +208,8 @@ class Vehicle:
         A name that is not unique or unknown, no contact with the rail, a freedom that no spring
         holds, or a wheel lifted off the rail at rest.
     """
+
+    __repr__ = brief
 
     name: str
     bodies: tuple[Body, ...]

@@ -11,7 +11,7 @@ from typing import Annotated
 import numpy as np
 
 from .. import errors
-from ..errors import InputError, Range, check_fields, within
+from ..errors import InputError, Range, brief, check_fields, within
 from .bearings import FARTHEST, Bearing, free_motions, on_deck
 from .elements import FIELDS
 
@@ -168,6 +168,8 @@ class BeamProperties:
         close to another, one whose place makes the deck move in a way it has no stiffness for, or a
         beam that can move as a rigid body.
     """
+
+    __repr__ = brief
 
     name: str
     spans: Annotated[tuple[float, ...], Range(above=0.0, unit="m")]

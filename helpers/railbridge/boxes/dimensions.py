@@ -15,7 +15,7 @@ import numpy as np
 
 from .. import errors
 from ..beams import checked_spans, on_deck, span_ends
-from ..errors import InputError, Range, check_fields, within
+from ..errors import InputError, Range, brief, check_fields, within
 from .pads import DIRECTIONS, STIFFEST
 from .section import refuse_crossing
 
@@ -137,6 +137,8 @@ class BoxDimensions:
         deck's height, a bottom wider than the slab, an outline that crosses itself, or bearings off
         the deck.
     """
+
+    __repr__ = brief
 
     name: str
     spans: tuple[float, ...]

@@ -12,7 +12,9 @@ from ..errors import InputError, did_you_mean, within
 from ..exchange.tables import read_columns
 from ..units import quantity
 
-__all__ = ["data_file", "data_names", "data_root", "read_parameters", "read_toml"]
+__all__ = [
+    "data_file", "data_names", "data_root", "is_path", "read_parameters", "read_toml",
+]  # fmt: skip
 
 
 def data_root() -> Path:
@@ -63,7 +65,7 @@ def data_file(kind: str, name: str | Path, *suffixes: str) -> Path:
         remedy = "Shipped: " + ", ".join(data_names(kind))
         raise InputError(field, name, "must be a name or a path", remedy)
     path = Path(name)
-    if path.suffix in (".csv", ".toml") or len(path.parts) > 1:
+    if is_path(name):
         if path.suffix not in suffixes:
             allowed = f"{field} files must end in {' or '.join(suffixes)}"
             said = {(".toml",): f"{field} files are TOML"}.get(suffixes, allowed)
@@ -81,6 +83,12 @@ def data_file(kind: str, name: str | Path, *suffixes: str) -> Path:
         near = did_you_mean(str(name), data_names(kind, *suffixes))
         raise InputError(field, str(name), f"no such {field}", near)
     return found[0]
+
+
+def is_path(name: str | Path) -> bool:
+    """Whether a name is the path of a file, not that of something shipped."""
+    path = Path(name)
+    return path.suffix in (".csv", ".toml") or len(path.parts) > 1
 
 
 def _is_file(path: Path) -> bool:

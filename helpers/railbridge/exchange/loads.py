@@ -21,7 +21,7 @@ import numpy as np
 
 from .. import errors
 from ..coupling import Coupling
-from ..errors import InputError
+from ..errors import InputError, brief
 from ..units import factor_of, per_metre
 from .nodes import RailLine
 
@@ -63,6 +63,8 @@ class NodalLoads:
         force_x, force_y, force_z (N), moment_x, moment_y, moment_z (N m) on the deck, in our axes;
         nodes as in ``line.nodes``.
     """
+
+    __repr__ = brief
 
     line: RailLine
     time: np.ndarray

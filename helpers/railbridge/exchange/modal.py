@@ -30,7 +30,7 @@ from scipy.interpolate import CubicSpline
 
 from .. import errors
 from ..decks import Deck, rayleigh_ratio
-from ..errors import InputError
+from ..errors import InputError, brief
 from ..guideways import PiecewiseCubic
 from .interpolation import cubics, hermite, parabolas, spline
 from .nodes import Nodes, RailLine
@@ -90,6 +90,8 @@ class ModalModel:
     masses : ndarray, shape (n, 4), or None
         Mass (kg) and inertia about x, y, z (kg m2) of every node.
     """
+
+    __repr__ = brief
 
     nodes: Nodes
     frequencies_hz: np.ndarray

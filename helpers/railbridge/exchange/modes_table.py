@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from .. import errors
 from ..decks import Deck
-from ..errors import Range, check_fields, within
+from ..errors import Range, brief, check_fields, within
 from .files import read_modes
 from .modal import deck_from_modes
 from .nodes import (
@@ -65,6 +65,8 @@ class ModesTable:
     unusual : bool
         Whether frequencies and masses beyond those of bridges are accepted.
     """
+
+    __repr__ = brief
 
     nodes: str
     modes: str

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, TypeVar, get_args
 import numpy as np
 
 from .. import errors
-from ..errors import InputError, Range, check_fields, within
+from ..errors import InputError, Range, brief, check_fields, within
 from ..units import factor_of, per_metre, spelled
 from .tables import Columns, labelled, read_columns
 
@@ -147,6 +147,8 @@ class NodeChoice:
         Numbers or names of the nodes, instead of a place.
     """
 
+    __repr__ = brief
+
     y: Annotated[float, Range(unit="m")] | None = None
     z: Annotated[float, Range(unit="m")] | None = None
     within: Annotated[float, Range(above=0.0, unit="m")] = 0.01
@@ -271,6 +273,8 @@ class Nodes:
         `export_modes` writes them.
     """
 
+    __repr__ = brief
+
     labels: tuple[str, ...]
     places: np.ndarray
     units: tuple[str, str] = ("m", "kg")
@@ -382,6 +386,8 @@ class RailLine:
     units, turn, cubic
         See `Nodes`.
     """
+
+    __repr__ = brief
 
     labels: tuple[tuple[str, ...], ...]
     x: np.ndarray

@@ -29,7 +29,7 @@ from scipy.interpolate import CubicSpline
 from .. import errors
 from ..coupling import Coupling, DeckState, ForcesAdded, prepare
 from ..decks import History
-from ..errors import InputError, within
+from ..errors import InputError, brief, within
 from ..guideways import Guideway, PiecewiseCubic
 from ..settings import check
 from ..tracks import FadeIn, Track
@@ -68,6 +68,8 @@ class Staggered:
     felt : DeckState or None
         The nodes' motion that the last forces answer to.
     """
+
+    __repr__ = brief
 
     train: AnyTrain
     track: Track
@@ -158,6 +160,8 @@ class NodeMotion:
         m, m, rad; nodes as in ``line.nodes``. `roll` is not used where a left and a right line
         carry the rail.
     """
+
+    __repr__ = brief
 
     time: np.ndarray
     y: np.ndarray

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from .. import errors
-from ..errors import InputError
+from ..errors import InputError, brief
 from ..units import has_decimal_comma, written
 
 __all__ = ["Columns", "labelled", "read_columns"]
@@ -36,6 +36,8 @@ class Columns:
     comma : bool
         Whether numbers have a decimal comma; cells are then separated by semicolons or tabs.
     """
+
+    __repr__ = brief
 
     name: str
     cells: dict[str, list[str]]
