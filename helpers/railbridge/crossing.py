@@ -34,11 +34,18 @@ class NotConvergedError(RuntimeError):
 
     def __init__(self, run: Crossing, path: str = "") -> None:
         s = run.settings
-        other = "interaction = 'direct'" if s.loads == "wheels" else "loads = 'wheels'"
+        remedies = [f"{path}relaxation = 0.5 or 'aitken'", f"more {path}max_iterations"]
+        direct = f"{path}interaction = 'direct'"
+        if s.loads == "wheels":
+            # It always ends, where wheels on stiff contacts may take hundreds of passes.
+            with_all = "" if s.feedback == "all" else f" with {path}feedback = 'all'"
+            remedies.insert(0, direct + with_all)
+        else:
+            remedies.append(f"{path}loads = 'wheels' with {direct}")
         super().__init__(
             f"{path}max_iterations = {run.iterations}: not converged, the last change was "
             f"{run.changes[-1]:.2g} and must be below {path}tolerance = {s.tolerance:g} twice in a "
-            f"row. Try {path}relaxation = 0.5 or 'aitken', more {path}max_iterations, or {other}."
+            f"row. Try {', '.join(remedies[:-1])}, or {remedies[-1]}."
         )
         self.run = run
 

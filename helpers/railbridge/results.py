@@ -326,7 +326,7 @@ class Crossing:
         kept_only : bool
             Whether the modes left out are not counted: what the wheels feel.
         """
-        x = errors.number("x", x, least=0.0, most=self.deck.length, unit="m")
+        x = errors.place("x", x, (0.0, self.deck.length))
         recovery = self.deck.recovery
         if self_weight and recovery.lacks:
             raise InputError("deck", self.deck.name, recovery.lacks)
@@ -367,7 +367,7 @@ class Crossing:
         return self._motion("acceleration", x, self._modal_acceleration, units)
 
     def _motion(self, kind: str, x: float, modal: np.ndarray, units: tuple[str, ...]) -> History:
-        x = errors.number("x", x, least=0.0, most=self.deck.length, unit="m")
+        x = errors.place("x", x, (0.0, self.deck.length))
         names = [f"{kind}_y", f"{kind}_z", f"{kind}_roll"]
         values = dict(zip(names, self._moving(x, modal), strict=True))
         return History(self.time, values, dict(zip(names, units, strict=True)), f"x = {x:g} m")
@@ -395,6 +395,7 @@ class Crossing:
             A deck of which only modes are known.
         """
         self._refuse_lacks()
+        x = errors.place("x", x, (0.0, self.deck.length))
         lines = {name: self.deck.recovery.section(name, x) for name in _FORCES}
         return self.recovered(lines, SECTION_QUANTITIES, self_weight, f"x = {x:g} m")
 
@@ -496,7 +497,7 @@ class Crossing:
         errors.choice("quantity", quantity, ENVELOPE)
         if x is None:
             x = np.linspace(0.0, self.deck.length, STATIONS).round(9)
-        x = errors.numbers("x", x, least=0.0, most=self.deck.length, unit="m")
+        x = errors.places("x", x, (0.0, self.deck.length))
         deck, state = self.deck, self.state
         if quantity == "acceleration_z":
             if not deck.has["z"]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import errors
 from .decks import Deck
-from .errors import InputError, Range, check_fields
+from .errors import InputError, Range, brief, check_fields
 from .guideways import Guideway
 from .tracks import Track
 from .trains import AnyTrain, Passage
@@ -83,6 +83,8 @@ class Options:
         without twist (a guess at the paper's reading).
     """
 
+    __repr__ = brief
+
     speed: Annotated[float, Range(above=0.0, most=200.0, unit="m/s", remedy=_IN_METRES)]
     loads: Literal["wheels", "bogies", "condensed"] = "wheels"
     interaction: Literal["iterate", "rigid", "direct"] = "iterate"
@@ -127,6 +129,8 @@ class Settings(Options):
         Samples from t = 0, when the first axle enters, to the end of the tail.
     """
 
+    __repr__ = brief
+
     samples: int
 
     @property
@@ -158,6 +162,8 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
     errors.keys("", options, [f.name for f in fields(Options)], ["speed"])
     asked = Options(**options)
     train.formation[0].condensation(asked.loads)
+    if asked.excitation == "car":
+        _ = [vehicle.front for vehicle, _ in train.kinds()]  # which each of them must have
     step = _time_step(train, deck, track, asked)
     advance = asked.speed * step
     chosen = {
@@ -174,7 +180,7 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
 def _track_offset(train: AnyTrain, deck: Guideway, given: float | str) -> float:
     offset = deck.track_offset(given)
     for wheel in train.wheels:
-        if deck.width is not None and abs(offset + wheel.y) > deck.width / 2:
+        if deck.width is not None and abs(offset + wheel.y) > deck.width / 2 + 1e-9:
             where = f"wheel {wheel.number} of car {wheel.car} at y = {offset + wheel.y:g} m"
             allowed = f"{where} is off the deck, half width {deck.width / 2:g} m"
             remedy = "Move the track towards the axis, or correct the deck's width"

@@ -410,6 +410,81 @@ NOTCH = {"wheels": [[1, 1]], "circumference": 2.7, "offset": 1.0, "depth": 1e-3,
 HARMONIC = {"kind": "harmonic", "amplitude": 1e-3, "wavelength": 10.0}
 
 
+def test_the_headline_names_the_point_that_moves_most(here, capsys):
+    given = ("run", "case.toml", "--out", "out", "--set", "output.points=[1.0, 6.0, 11.0]")
+    code, _, err = command(capsys, *given)
+    points = json.loads(Path("out/summary.json").read_text())["points"]
+    worst = min(points, key=lambda p: p["displacement_z"]["min"]["value"])
+    value = worst["displacement_z"]["min"]["value"] * 1e3
+    assert code == 0 and worst["x"] == 6.0
+    assert f"largest displacement, at x = 6 m is {value:.4g} mm" in err[-1]
+
+
+def test_the_headline_of_a_point_at_the_support_says_so(here, capsys):
+    given = ("run", "case.toml", "--out", "out", "--set", "output.points=[0.0]")
+    assert ", displacement at x = 0 m is 0 mm" in command(capsys, *given)[2][-1]
+
+
+def test_paths_of_changes_are_relative_to_the_case_like_those_in_it(here, capsys, monkeypatch):
+    planar = shelf.data_file("vehicles", "xia2000_planar").read_text(encoding="utf-8")
+    (here / "cases" / "cars").mkdir(parents=True)
+    (here / "cases" / "cars" / "mine.toml").write_text(planar, encoding="utf-8")
+    (here / "cases" / "case.toml").write_text(CASE, encoding="utf-8")
+    case, change = "cases/case.toml", "train.vehicle=cars/mine.toml"
+    code, out, _ = command(capsys, "check", case, "--set", change)
+    assert code == 0 and "can be run" in out[0]
+    found = rb.case(case, {"train.vehicle": "cars/mine.toml"})
+    assert found.get("train.vehicle") == str(Path("cases/cars/mine.toml"))
+    line = refused(capsys, "check", case, "--set", "train.vehicle=cases/cars/mine.toml")
+    assert "no such file" in line
+    absolute = f"train.vehicle={here / 'cases' / 'cars' / 'mine.toml'}"
+    assert command(capsys, "check", case, "--set", absolute)[0] == 0
+    # A shipped case stands nowhere that the user knows: there it is the folder one is in.
+    monkeypatch.chdir(here / "cases")
+    assert command(capsys, "check", "paper", "--set", "train.vehicle=cars/mine.toml")[0] == 0
+
+
+HOSTILE = "\\u001b[31mred\\u0007\\u009b2J\\u202e"
+"""In TOML: a colour, a bell, clearing of the screen and a change of direction."""
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        CASE.replace("[train]", f'"{HOSTILE}" = 1\n[train]'),
+        CASE.replace('"xia2000_planar"', f'"{HOSTILE}"'),
+        CASE.replace('"xia2000_planar"', f'"{HOSTILE}.csv"'),
+        CASE.replace("tail = 0.1", f'tail = "{HOSTILE}"'),
+        CASE.replace('vehicle = "xia2000_planar"', f'vehicle = "xia2000"\ntrack = "{HOSTILE}"'),
+        CASE.replace('"harmonic"', f'"{HOSTILE}"'),
+    ],
+)
+def test_escapes_in_names_are_shown_not_obeyed(here, capsys, content):
+    Path("case.toml").write_text(content, encoding="utf-8")
+    line = refused(capsys, "check", "case.toml")
+    assert line.isprintable() and "\\x1b[31m" in line
+
+
+def test_escapes_in_names_of_files_are_shown_not_obeyed(here, capsys):
+    name = "a\x1b[2Jb.toml"
+    Path("case.toml").rename(name)
+    code, out, err = command(capsys, "check", name)
+    assert code == 0 and out[0].startswith("a\\x1b[2Jb.toml: can be run") and not err
+    code, out, err = command(capsys, "run", name, "--out", "o\x07")
+    assert code == 0 and err[-1].endswith("written to o\\x07") and err[-1].isprintable()
+    with pytest.raises(SystemExit):
+        cli.main(["check", name, "--\x1b[31m"])
+    assert "\x1b" not in capsys.readouterr().err
+
+
+def test_a_terminal_that_lacks_a_letter_is_told_all_the_same(here):
+    Path("case.toml").rename("brücke \U0001f600.toml")
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    given = [sys.executable, "-m", "railbridge", "check", "brücke \U0001f600.toml"]
+    done = subprocess.run(given, capture_output=True, env=environment)
+    assert done.returncode == 0 and done.stdout.startswith(b"br\\xfccke \\U0001f600.toml: can be")
+
+
 def test_schema_is_a_schema_and_every_shipped_case_fits_it():
     Draft202012Validator.check_schema(SCHEMA)
     for name in shelf.data_names("cases", ".toml"):

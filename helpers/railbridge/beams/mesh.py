@@ -21,6 +21,7 @@ from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU
 
+from ..errors import brief
 from ..guideways import PiecewiseCubic
 from . import elements
 from .bearings import null_space
@@ -64,6 +65,8 @@ class BeamModes:
     energies : dict of ndarray, shape (m,)
         Share of the kinetic energy in each field.
     """
+
+    __repr__ = brief
 
     frequencies_hz: np.ndarray
     names: tuple[str, ...]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,11 +11,11 @@ from typing import Annotated
 import numpy as np
 
 from .. import errors
-from ..errors import InputError, Range, check_fields, within
+from ..errors import InputError, Range, brief, check_fields, within
 from .bearings import FARTHEST, Bearing, free_motions, on_deck
 from .elements import FIELDS
 
-__all__ = ["BeamProperties", "Section", "checked_spans"]
+__all__ = ["BeamProperties", "Section", "checked_spans", "span_ends"]
 
 _SHORTEST = 1e-3
 """Shortest span or distance of bearings as a share of the length.
@@ -41,6 +42,14 @@ def checked_spans(spans: Sequence[float]) -> tuple[float, ...]:
     if not 1 <= len(found) <= 30:
         raise InputError("spans", list(spans), "must hold 1 to 30 spans")
     return tuple(found.tolist())
+
+
+def span_ends(spans: Sequence[float]) -> np.ndarray:
+    """Return the places where spans end, m, from 0.
+
+    Each sum is rounded once, so that 12.1, 12.2 and 12.3 m end at 36.6.
+    """
+    return np.array([math.fsum(spans[:count]) for count in range(len(spans) + 1)])
 
 
 @dataclass(frozen=True)
@@ -160,6 +169,8 @@ class BeamProperties:
         beam that can move as a rigid body.
     """
 
+    __repr__ = brief
+
     name: str
     spans: Annotated[tuple[float, ...], Range(above=0.0, unit="m")]
     mass: Annotated[float, Range(above=0.0, unit="kg/m")]
@@ -195,7 +206,7 @@ class BeamProperties:
     @property
     def length(self) -> float:
         """Total length, m."""
-        return float(sum(self.spans))
+        return float(self._span_ends[-1])
 
     @property
     def fields(self) -> tuple[str, ...]:
@@ -211,7 +222,7 @@ class BeamProperties:
     @property
     def joints(self) -> tuple[float, ...]:
         """Places where simple spans meet, m; none in a continuous deck."""
-        return () if self.continuous else tuple(np.cumsum(self.spans)[:-1].tolist())
+        return () if self.continuous else tuple(self._span_ends[1:-1].tolist())
 
     def piece(self, bearing: Bearing) -> int:
         """Return which simple span (from 0) a bearing carries; 0 in a continuous deck."""
@@ -254,7 +265,7 @@ class BeamProperties:
 
     @cached_property
     def _span_ends(self) -> np.ndarray:
-        return np.concatenate([[0.0], np.cumsum(self.spans)])
+        return span_ends(self.spans)
 
     def _placed_bearings(self) -> tuple[Bearing, ...]:
         """Return the given or usual bearings, one under each span where simple spans meet."""

@@ -14,8 +14,8 @@ from typing import Annotated, Literal
 import numpy as np
 
 from .. import errors
-from ..beams import checked_spans, on_deck
-from ..errors import InputError, Range, check_fields, within
+from ..beams import checked_spans, on_deck, span_ends
+from ..errors import InputError, Range, brief, check_fields, within
 from .pads import DIRECTIONS, STIFFEST
 from .section import refuse_crossing
 
@@ -138,6 +138,8 @@ class BoxDimensions:
         the deck.
     """
 
+    __repr__ = brief
+
     name: str
     spans: tuple[float, ...]
     slab_width: _Width
@@ -191,19 +193,19 @@ class BoxDimensions:
         object.__setattr__(self, "bearings", tuple(placed))
         half = self.slab_width / 2
         for key, y in errors.table("tracks", self.tracks).items():
-            errors.number(f"tracks.{key}", y, least=-half, most=half, unit="m")
+            errors.place(f"tracks.{key}", y, (-half, half))
 
     # ---- geometry
 
     @property
     def length(self) -> float:
         """Between the outer bearing lines, m."""
-        return float(sum(self.spans))
+        return float(self.span_ends[-1])
 
     @cached_property
     def span_ends(self) -> np.ndarray:
         """Places where spans end, m, from 0."""
-        return np.concatenate([[0.0], np.cumsum(self.spans)])
+        return span_ends(self.spans)
 
     @property
     def head_thickness(self) -> float:

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..beams import Beam, Bearing
 from ..decks import Deck, checked_damping, damping_ratios
+from ..errors import brief
 from .boxshell import BoxMesh, shell_of
 from .dimensions import BoxDimensions
 from .section import SectionProperties, section_properties
@@ -20,6 +21,8 @@ __all__ = ["Box"]
 class Box(BoxDimensions):  # noqa: D101
     # What its fields mean is written once, and read by whoever asks for help on a box.
     __doc__ = BoxDimensions.__doc__
+
+    __repr__ = brief
 
     # ---- section and beam
 

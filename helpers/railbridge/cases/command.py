@@ -20,12 +20,12 @@ import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
 from ..crossing import NotConvergedError
-from ..errors import InputError
+from ..errors import InputError, printable
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
@@ -73,6 +73,9 @@ exit codes:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):  # a terminal that lacks a letter is no reason to stop
+            stream.reconfigure(errors="backslashreplace")
     given = _parser().parse_args(arguments)
     try:
         with np.errstate(all="ignore"), warnings.catch_warnings():
@@ -100,7 +103,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _say(line: str) -> None:
-    print("railbridge: " + " ".join(line.split()), file=sys.stderr)
+    print("railbridge: " + printable(" ".join(line.split())), file=sys.stderr)
+
+
+def _tell(line: str) -> None:
+    print(printable(line))
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        super().error(printable(message))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -112,9 +124,7 @@ def _parser() -> argparse.ArgumentParser:
         return made
 
     raw = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(
-        "railbridge", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=raw
-    )
+    parser = _Parser("railbridge", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=raw)
     commands = parser.add_subparsers(required=True, metavar="command")
     changes = argparse.ArgumentParser(add_help=False)
     changes.add_argument("case", help="a case file (.toml), or the name of a shipped case")
@@ -220,9 +230,19 @@ def _headline(loaded: Case, run: Crossing) -> str:
         solved = f"converged in {passes}"
         if not run.converged:
             solved = f"{passes}, last change {run.changes[-1]:.2g}"
-    x = loaded.points[0]
-    value, _ = run.displacement(x).extreme("displacement_z")
-    return f"{solved}, displacement at x = {x:g} m is {value * 1e3:.4g} mm"
+    x, value = _worst(loaded, run)
+    where = "largest displacement, " if len(loaded.points) > 1 else "displacement "
+    return f"{solved}, {where}at x = {x:g} m is {value * 1e3:.4g} mm"
+
+
+def _worst(loaded: Case, run: Crossing) -> tuple[float, float]:
+    """Return the point that moves most and its displacement, m; the vertical one if there is any.
+
+    Signed.
+    """
+    name = "displacement_z" if run.deck.has["z"] else "displacement_y"
+    found = [(x, run.displacement(x).extreme(name)[0]) for x in loaded.points]
+    return max(found, key=lambda each: abs(each[1]))
 
 
 def _write(
@@ -246,7 +266,7 @@ def _check(given: argparse.Namespace) -> int:
     s = loaded.settings
     seconds = (loaded.deck.length + loaded.train.length) / s.speed + s.tail
     wheels = len(loaded.train.wheels)
-    print(
+    _tell(
         f"{given.case}: can be run; {wheels} wheels, {seconds:.3g} s in steps of "
         f"{s.time_step:.3g} s, {needed / 1e9:.2g} GB"
     )
@@ -266,7 +286,7 @@ def _new(given: argparse.Namespace) -> int:
         ) from None
     except (OSError, ValueError) as error:
         raise InputError("file", given.file, f"cannot be written ({_reason(error)})") from None
-    print(f"{given.file} written; run it with: railbridge run {given.file} --out results")
+    _tell(f"{given.file} written; run it with: railbridge run {given.file} --out results")
     return 0
 
 
@@ -274,7 +294,7 @@ def _list(given: argparse.Namespace) -> int:
     for kind in [given.kind] if given.kind else KINDS:
         print(kind)
         for name in shelf.data_names(kind):
-            print(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
+            _tell(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
     return 0
 
 
@@ -304,7 +324,7 @@ def _copy_notebooks(given: argparse.Namespace) -> int:
             scratch.replace(folder)
     for copy in planned:
         if copy.action in ("updated", "kept", "replaced"):
-            print(
+            _tell(
                 f"{copy.action:10}{copy.name}"
                 + f"  (yours is now {copy.backup})" * bool(copy.backup)
             )
@@ -312,13 +332,13 @@ def _copy_notebooks(given: argparse.Namespace) -> int:
         a: sum(c.action == a for c in planned)
         for a in ("copied", "updated", "replaced", "unchanged", "kept")
     }
-    print(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
+    _tell(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
     if count["kept"]:
         print(
             "kept: changed since they were copied; --force replaces them and keeps yours "
             "beside under another name"
         )
-    print(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
+    _tell(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
     return 0
 
 
@@ -427,7 +447,7 @@ class _Progress:
         if self.quiet or now - self.last < (0.2 if terminal else 10.0) or now - self.start < 1.0:
             return
         self.last = now
-        line = f"railbridge: {text}, {now - self.start:.0f} s"
+        line = f"railbridge: {printable(text)}, {now - self.start:.0f} s"
         if terminal:
             print("\r" + line.ljust(self.shown), end="", file=sys.stderr, flush=True)
             self.shown = len(line)

@@ -70,6 +70,11 @@ class Case:
     settings: Settings = field(init=False, repr=False, compare=False)
     points: np.ndarray = field(init=False, repr=False, compare=False)
 
+    def __repr__(self) -> str:
+        cars, speed = len(self.train.formation), self.settings.speed
+        found = f"Case({self.deck.name!r}, {self.deck.length:g} m, {cars} cars, {speed:g} m/s)"
+        return found if len(found) < 240 else f"Case({cars} cars, {speed:g} m/s)"
+
     def __post_init__(self, like: Case | None, unchanged: frozenset[str]) -> None:
         content = {k: errors.plain(k, v) for k, v in errors.table("case", self.content).items()}
         t = checked(tables.CASE, content)
@@ -81,7 +86,7 @@ class Case:
             settings = check(train, deck, track, **options)
         given = t.output.points if t.output is not None else None
         points = [deck.length / 2] if given is None else given
-        points = errors.numbers("output.points", points, most=deck.length, unit="m")
+        points = errors.places("output.points", points, (0.0, deck.length))
         made = {
             "content": content, "train": train, "deck": deck, "track": track, "options": options,
             "settings": settings, "points": points,
@@ -180,7 +185,8 @@ def case(source: str | Path | Mapping[str, Any], changes: Mapping[str, Any] | No
     ----------
     source : str, Path or mapping
     changes : mapping, optional
-        Keys changed before the case is checked; see `Case.replace`.
+        Keys changed before the case is checked; see `Case.replace`. Paths among them are relative
+        to the file, like those in it.
 
     Raises
     ------
@@ -188,21 +194,20 @@ def case(source: str | Path | Mapping[str, Any], changes: Mapping[str, Any] | No
         Unknown name or bad content.
     """
     if isinstance(source, Mapping):
-        content = dict(source)
-    else:
-        path = shelf.data_file("cases", source, ".toml")
-        content = _beside(shelf.read_toml(path), path.parent)
-    return Case(changed(content, changes) if changes else content)
+        return Case(changed(source, changes or {}))
+    path = shelf.data_file("cases", source, ".toml")
+    content, changes = shelf.read_toml(path), changes or {}
+    if shelf.is_path(source):
+        return Case(_beside(changed(content, changes), path.parent))
+    # Nobody knows in which folder a shipped case stands: changes are relative to one's own.
+    return Case(changed(_beside(content, path.parent), changes))
 
 
 def _beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
     """Make paths in a case file, which are relative to it, paths that can be opened from here."""
 
     def opened(name: Any) -> Any:
-        is_path = isinstance(name, str) and (
-            name.endswith((".csv", ".toml")) or len(Path(name).parts) > 1
-        )
-        return str(folder / name) if is_path else name
+        return str(folder / name) if isinstance(name, str) and shelf.is_path(name) else name
 
     def change(place: Any, name: str) -> None:
         if isinstance(place, dict) and name in place:

@@ -12,7 +12,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from .. import exchange
+from .. import errors, exchange
 from ..beams import Beam, Bearing, Section
 from ..boxes import Box, BoxMesh, Pads
 from ..decks import Deck, rayleigh
@@ -23,7 +23,7 @@ from ..tracks import Table as MeasuredTrack
 from ..trains import AnyTrain, AxleTrain, Train
 from ..vehicles import Body, Spring, Vehicle
 from . import shelf, tables
-from .cars import CAR_PARAMETERS, two_bogie_car
+from .cars import CAR_PARAMETERS, OPTIONAL_PARAMETERS, two_bogie_car
 from .tabletypes import Table, checked
 
 __all__ = [
@@ -63,7 +63,8 @@ def car_parameters(source: str | Path) -> dict[str, float]:
         A shipped name (``xia2000``) or a ``.csv`` file.
     """
     units = {name: bounds.unit for name, bounds in CAR_PARAMETERS.items()}
-    return shelf.read_parameters(shelf.data_file("vehicles", source), units)
+    path, same = shelf.data_file("vehicles", source), {"static_wheelset_mass": "wheelset_mass"}
+    return shelf.read_parameters(path, units, OPTIONAL_PARAMETERS, same)
 
 
 def _vehicle_from_table(name: str, content: dict[str, Any]) -> Vehicle:
@@ -258,21 +259,17 @@ def _beam_deck(name: str, t: Table) -> Deck:
 
 
 def _refuse_beside(y: float, width: float | None) -> None:
-    if width is not None and abs(y) > width / 2:
+    if width is not None and abs(y) > width / 2 + 1e-9:
         allowed = f"is off the deck, half width {width / 2:g} m"
         raise InputError("y", y, allowed, "Move the bearing below the deck, or correct the width")
 
 
 def _tracks(t: Table) -> dict[str, float]:
     """Return the named tracks, m; refuse one beside the deck."""
-    for name, y in (t.tracks or {}).items():
-        if t.width is not None and abs(y) > t.width / 2:
-            allowed = (
-                f"must be a finite number at least {-t.width / 2:g} and at most {t.width / 2:g} m"
-            )
-            raise InputError(
-                f"tracks.{name}", y, allowed, "Tracks lie on the deck, correct the width"
-            )
+    half, remedy = (t.width or 0.0) / 2, "Tracks lie on the deck, correct the width"
+    if t.width is not None:
+        for name, y in (t.tracks or {}).items():
+            errors.place(f"tracks.{name}", y, (-half, half), remedy=remedy)
     return t.tracks or {}
 
 

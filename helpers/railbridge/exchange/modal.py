@@ -30,7 +30,7 @@ from scipy.interpolate import CubicSpline
 
 from .. import errors
 from ..decks import Deck, rayleigh_ratio, whole_group
-from ..errors import InputError, Remark, ResultWarning
+from ..errors import InputError, Remark, ResultWarning, brief
 from ..guideways import PiecewiseCubic
 from .interpolation import cubics, hermite, parabolas, spline
 from .nodes import Nodes, RailLine
@@ -94,6 +94,8 @@ class ModalModel:
     masses : ndarray, shape (n, 4), or None
         Mass (kg) and inertia about x, y, z (kg m2) of every node.
     """
+
+    __repr__ = brief
 
     nodes: Nodes
     frequencies_hz: np.ndarray
@@ -371,6 +373,7 @@ def _refuse_units(
 ) -> None:
     """Refuse a first frequency or a mass per metre beyond those of bridges by orders of magnitude.
 
+    The first vertical one is meant, if there is any: lateral and torsional ones may be anywhere.
     First frequencies of simple spans L (m) lie between 80 / L (to 20 m) or 23.58 L^-0.592 and
     94.76 L^-0.748 Hz (EN 1991-2, 6.4.4). A mass-normalised mode in which the deck moves as a whole
     has an integral of phi^2 of about 1 / mass per metre.
@@ -378,7 +381,9 @@ def _refuse_units(
     span = float(np.max(np.diff(np.sort(supports)))) if len(supports) > 1 else line.length
     low, high = (80 / span if span <= 20 else 23.58 * span**-0.592), 94.76 * span**-0.748
     low, high = min(low, high), max(low, high)
-    first = float(frequencies[0])
+    vertical = np.flatnonzero(np.argmax(size, axis=1) == 1)
+    lowest = int(vertical[0]) if len(vertical) else 0
+    first = float(frequencies[lowest])
     off = max(low / first, first / high)
     usual = f"bridges of {span:.3g} m have about {low:.2g} to {high:.2g} Hz"
     if off > 10 and not unusual:
@@ -386,13 +391,13 @@ def _refuse_units(
         remedy = "Check the units of length (mm or m?) and of frequency (Hz, not rad/s); "
         remedy += "unusual = true if the deck is so"
         raise InputError("modes: first frequency", first, allowed, remedy)
-    if off > 3 and not unusual:
+    if off > 2.5 and not unusual:
+        which = "first vertical" if len(vertical) else "first"
         warnings.warn(
-            f"modes: first frequency {first:.3g} Hz: {usual}. Are the units right (rad/s?)",
+            f"modes: {which} frequency {first:.3g} Hz: {usual}. Are the units right (rad/s?)",
             stacklevel=4,
         )
-    vertical = np.flatnonzero(np.argmax(size, axis=1) == 1)
-    mass = 1.0 / size[vertical[0], 1] if len(vertical) else 1.0 / size[0].max()
+    mass = 1.0 / size[lowest].max()
     if not _LIKELY_MASS[0] < mass < _LIKELY_MASS[1] and not unusual:
         allowed = f"make the deck {mass:.3g} kg per metre"
         allowed += f", bridges have {_LIKELY_MASS[0]:g} to {_LIKELY_MASS[1]:g}"
