@@ -191,7 +191,7 @@ def case(source: str | Path | Mapping[str, Any], changes: Mapping[str, Any] | No
         content = dict(source)
     else:
         path = shelf.data_file("cases", source, ".toml")
-        content = _beside(shelf.read_toml(path), path.parent)
+        content = _beside(shelf.read_toml(path, tables.CASE.model_fields), path.parent)
     return Case(changed(content, changes) if changes else content)
 
 

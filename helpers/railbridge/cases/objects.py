@@ -49,7 +49,7 @@ def vehicle(source: str | Path) -> Vehicle:
     if path.suffix == ".csv":
         with within(source=path.name):
             return two_bogie_car(path.stem, **car_parameters(path))
-    content = shelf.read_toml(path)
+    content = shelf.read_toml(path, tables.VEHICLE.model_fields)
     with within("", {"bodies": "body", "springs": "spring"}, path.name):
         return _vehicle_from_table(path.stem, content)
 
@@ -156,7 +156,7 @@ def deck(source: str | Path) -> Deck:
         Unknown name (the nearest is suggested), or bad content.
     """
     path = shelf.data_file("decks", source, ".toml")
-    content = exchange.beside(shelf.read_toml(path), path.parent)
+    content = exchange.beside(shelf.read_toml(path, tables.DECK_KEYS), path.parent)
     with within(source=path.name):
         return _deck_from_table(path.stem, content)
 
@@ -170,7 +170,7 @@ def box(source: str | Path) -> Box:
         Unknown name, a deck file without the table ``[box]``, or bad content.
     """
     path = shelf.data_file("decks", source, ".toml")
-    content = shelf.read_toml(path)
+    content = shelf.read_toml(path, tables.DECK_KEYS)
     with within(source=path.name):
         if "box" not in content:
             allowed = "this deck file has no such table"
@@ -208,7 +208,7 @@ def deck_of_case(content: Mapping[str, Any]) -> Deck:
             )
     with within("deck.file", {"deck": ""}):
         path = shelf.data_file("decks", t.file, ".toml")
-    own = exchange.beside(shelf.read_toml(path), path.parent)
+    own = exchange.beside(shelf.read_toml(path, tables.DECK_KEYS), path.parent)
     replaced = {name: value for name, value in content.items() if name != "file"}
     if isinstance(own.get("modes"), dict) and "modes" in replaced:
         # A number of modes beside another program's modes means how many of them.

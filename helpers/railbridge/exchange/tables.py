@@ -13,6 +13,7 @@ import numpy as np
 
 from .. import errors
 from ..errors import InputError
+from .reading import read_text
 
 __all__ = ["Columns", "labelled", "read_columns"]
 
@@ -110,10 +111,7 @@ def read_columns(
     path = Path(path)
     try:
         rows, remarks = _read(path)
-    except FileNotFoundError:
-        remedy = "A path in a deck file is relative to that file"
-        raise InputError("path", path.name, "no such file", remedy) from None
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except csv.Error as error:
         allowed = f"is not a readable CSV file ({error})"
         raise InputError("path", path.name, allowed, "Save it as UTF-8 text") from None
     with errors.within(source=path.name):
@@ -140,7 +138,7 @@ def _read(path: Path) -> tuple[list[tuple[int, list[str]]], dict[str, tuple[str,
 
     def uncommented() -> Iterator[str]:
         nonlocal start, complete
-        for number, line in enumerate(path.read_text(encoding="utf-8-sig").splitlines(), start=1):
+        for number, line in enumerate(read_text(path).splitlines(), start=1):
             # A cell between quotes may run over several lines, whatever they start with.
             if complete and line.lstrip().startswith("#"):
                 key, _, value = line.strip(" #,;\t").partition(":")
@@ -158,8 +156,14 @@ def _read(path: Path) -> tuple[list[tuple[int, list[str]]], dict[str, tuple[str,
 
 
 def _check_header(header: list[str], required: Sequence[str], optional: Sequence[str]) -> None:
-    """Refuse columns that are given twice, unknown or missing."""
+    """Refuse columns that are given twice, unknown or missing.
+
+    Of a header without any known name nothing is said: it may be somebody else's file.
+    """
     known = [*required, *optional]
+    if header and not any(name.strip() in known for cell in header for name in cell.split(";")):
+        remedy = "Columns: " + ",".join(known) + ". Is it the right file?"
+        raise InputError("header", None, "has none of the columns of such a table", remedy)
     for column in header:
         if header.count(column) > 1:
             raise InputError(f"column {column}", None, "appears more than once")
