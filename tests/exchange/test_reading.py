@@ -1,7 +1,6 @@
 """Only regular files of sane size are read, and nothing is said of what a foreign file holds."""
 
 import os
-import resource
 import subprocess
 import sys
 import time
@@ -26,6 +25,8 @@ def test_text_comes_as_it_is_read_anywhere(tmp_path):
 
 def within_seconds(door, seconds=20, memory=3_000_000_000):
     """What a line of Python says of a refusal, in a process that may not grow without end."""
+
+    import resource  # Unix only
 
     def bounded():
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
