@@ -151,3 +151,12 @@ def test_a_dataclass_is_held_to_the_types_of_its_fields():
     ]:
         with pytest.raises(InputError, match=words):
             Example(**{"size": 1.0, **given})
+
+
+@pytest.mark.parametrize(
+    ("key", "shown"), [("", '""'), ("box deck.depth", '"box deck.depth"'), ("a-b_2", "a-b_2")]
+)
+def test_keys_are_named_as_they_are_written(key, shown):
+    with pytest.raises(InputError) as error:
+        errors.keys("deck", {key: 1}, ["length"])
+    assert str(error.value).startswith(f"deck.{shown}: unknown key")

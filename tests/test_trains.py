@@ -266,3 +266,19 @@ def test_what_has_no_steady_forces(change, said):
     }
     with pytest.raises(rb.InputError, match=said):
         rb.steady_forces(**good | change)
+
+
+def test_cars_that_overlap_are_told_with_what_is_wrong_about_them():
+    with pytest.raises(rb.InputError, match=r"^car_spacing = 5\.0: cars overlap: 1 and 2\. Use"):
+        rb.Train(CAR, cars=3, car_spacing=5.0)
+    long = rb.two_bogie_car("x", **(rb.car_parameters("xia2000") | {"length": 10.0}))
+    words = "^vehicle = 'x': its axles reach over 18.1 m, it is 10 m long; cars overlap: 1 and 2"
+    for spacing in (None, 12.0):
+        with pytest.raises(rb.InputError, match=words):
+            rb.Train(long, cars=2, car_spacing=spacing)
+
+
+def test_a_bogie_in_millimetres_is_blamed_itself():
+    parameters = rb.car_parameters("xia2000") | {"axle_spacing": 2500.0}
+    with pytest.raises(rb.InputError, match=r"^vehicle x: axle_spacing = 2500\.0: must be below"):
+        rb.two_bogie_car("x", **parameters)

@@ -397,9 +397,17 @@ class Train(AnyTrain):
 
     def _refuse_overlap(self) -> None:
         for ahead, car in zip(self.formation[:-1], self.formation[1:], strict=True):
-            if car.axles[0].delay <= ahead.axles[-1].delay:
-                remedy = "Use at least the vehicle's length"
-                raise InputError("car_spacing", self.car_spacing, "cars overlap", remedy)
+            if car.axles[0].delay > ahead.axles[-1].delay:
+                continue
+            both = f"cars overlap: {ahead.number} and {car.number}"
+            for vehicle in (ahead.vehicle, car.vehicle):
+                reach = vehicle.axles[0].x - vehicle.axles[-1].x
+                if vehicle.length and reach >= vehicle.length:
+                    why = f"its axles reach over {reach:g} m, it is {vehicle.length:g} m long; "
+                    remedy = "Correct its length or the places of its axles"
+                    raise InputError("vehicle", vehicle.name, why + both, remedy)
+            remedy = "Use at least the vehicle's length"
+            raise InputError("car_spacing", self.car_spacing, both, remedy)
 
     @cached_property
     def vehicles(self) -> tuple[Vehicle, ...]:

@@ -231,7 +231,10 @@ def _deck_from_table(name: str, content: Mapping[str, Any]) -> Deck:
     t = checked(tables.DECK_FILE, content)
     if isinstance(t, tables.MODAL_DECK):
         return _modal_deck(name, t)
-    return _box_deck(name, t) if isinstance(t, tables.BOX_DECK) else _beam_deck(name, t)
+    if isinstance(t, tables.BOX_DECK):
+        with within(names=_IN_A_BOX_DECK):
+            return _box_deck(name, t)
+    return _beam_deck(name, t)
 
 
 def _beam_deck(name: str, t: Table) -> Deck:
@@ -283,13 +286,18 @@ def _damping(t: Table) -> tuple[float, float] | float:
         return rayleigh(t.damping.ratio, t.damping.frequencies_hz)
 
 
+_IN_A_BOX_DECK = {"bearings": "bearing", "pads": "bearing"} | {
+    dimension: f"box.{dimension}" for dimension in tables.DIMENSIONS
+}
+"""What a deck file calls the fields of a box, and what its shell stands on."""
+
+
 def _box(name: str, t: Table) -> Box:
     pads = []
     for i, line in enumerate(t.bearing or [], start=1):
         with within(f"bearing[{i}]"):
             pads.append(Pads(**{"fixed": ()} | line.given))
-    inside = {dimension: f"box.{dimension}" for dimension in tables.DIMENSIONS}
-    with within(names={"bearings": "bearing", **inside}):
+    with within(names=_IN_A_BOX_DECK):
         return Box(name, t.all_spans, bearings=tuple(pads), tracks=t.tracks or {}, **t.box.given)
 
 
