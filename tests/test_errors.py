@@ -212,3 +212,12 @@ def test_representations_fit_into_three_lines():
     assert repr(Outer(Outer(1))) == "Outer(a=Outer(...), b=2.0)"
     long = Outer(*[[Inner("n" * 12)] * 3] * 2)
     assert len(repr(long)) <= 240 and "\n" not in repr(long)
+
+
+@pytest.mark.parametrize(
+    ("key", "shown"), [("", '""'), ("box deck.depth", '"box deck.depth"'), ("a-b_2", "a-b_2")]
+)
+def test_keys_are_named_as_they_are_written(key, shown):
+    with pytest.raises(InputError) as error:
+        errors.keys("deck", {key: 1}, ["length"])
+    assert str(error.value).startswith(f"deck.{shown}: unknown key")

@@ -279,9 +279,8 @@ def test_cars_that_overlap_are_named_with_the_spacing_they_need():
     assert (error.value.field, error.value.value) == ("car_spacing", 18.1)
     assert rb.Train(CAR, cars=3, car_spacing=18.1001).length > 0.0
     short = replace(CAR, name="short", length=10.0)
-    with pytest.raises(
-        rb.InputError, match=r"cars 2 and 3 overlap.*Give car_spacing, more than 18.1"
-    ):
+    words = r"^vehicle = 'short': its axles reach over 18.1 m, it is 10 m long"
+    with pytest.raises(rb.InputError, match=words):
         rb.Train((CAR, CAR, short, short))
 
 
@@ -321,3 +320,9 @@ def test_runs_of_bare_axle_loads_can_be_added():
         total = sum(ask(run)[name][:n] for run in parts)
         found = ask(whole)[name][:n]
         assert np.abs(total - found).max() < 2e-3 * np.abs(found).max(), name
+
+
+def test_a_bogie_in_millimetres_is_blamed_itself():
+    parameters = rb.car_parameters("xia2000") | {"axle_spacing": 2500.0}
+    with pytest.raises(rb.InputError, match=r"^vehicle x: axle_spacing = 2500\.0: must be below"):
+        rb.two_bogie_car("x", **parameters)

@@ -18,6 +18,8 @@ files are made from the same types.
 from __future__ import annotations
 
 import difflib
+import json
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, is_dataclass
@@ -31,7 +33,7 @@ __all__ = [
     "FieldType", "InputError", "InputWarning", "ROUNDED", "Range", "Remark", "ResultWarning",
     "boolean", "brief", "check_fields", "choice", "did_you_mean", "field_types", "frozen",
     "integer", "joined", "keys", "number", "numbers", "place", "places", "plain", "printable",
-    "table", "text", "within",
+    "table", "text", "within", "written",
 ]  # fmt: skip
 
 
@@ -114,6 +116,11 @@ def _renamed(field: str, names: Mapping[str, str]) -> str:
 def joined(path: str, field: str) -> str:
     """Return the path of a field of what stands at `path`; either may be empty."""
     return f"{path}.{field}" if path and field and not field.startswith("[") else path + field
+
+
+def written(key: str) -> str:
+    """Return a key as it is written in a file: one that is empty or holds dots needs quotes."""
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key)
 
 
 @contextmanager
@@ -350,7 +357,8 @@ def keys(
     allowed = [*allowed, *(k for k in required if k not in allowed)]
     for key in given:
         if key not in allowed:
-            raise InputError(joined(field, key), None, "unknown key", did_you_mean(key, allowed))
+            name = joined(field, written(key))
+            raise InputError(name, None, "unknown key", did_you_mean(key, allowed))
     for key in required:
         if key not in given:
             remedy = f"Add {key} to {field or 'the file'}"
@@ -369,7 +377,7 @@ def plain(field: str, value: Any, depth: int = 0) -> Any:
     if depth < 20:
         if isinstance(value, Mapping):
             named = table(field, value).items()
-            return {k: plain(joined(field, k), v, depth + 1) for k, v in named}
+            return {k: plain(joined(field, written(k)), v, depth + 1) for k, v in named}
         if isinstance(value, (list, tuple)):
             return [plain(f"{field}[{i}]", v, depth + 1) for i, v in enumerate(value, start=1)]
     allowed = "must be a number, a text, true or false, or a list or table of them"

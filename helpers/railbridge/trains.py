@@ -406,6 +406,12 @@ class Train(AnyTrain):
         for ahead, car in pairs:
             if car.axles[0].delay > ahead.axles[-1].delay:
                 continue
+            for vehicle in (ahead.vehicle, car.vehicle):
+                reach = vehicle.axles[0].x - vehicle.axles[-1].x
+                if vehicle.length and reach >= vehicle.length:
+                    allowed = f"its axles reach over {reach:g} m, it is {vehicle.length:g} m long"
+                    remedy = "Correct its length or the places of its axles"
+                    raise InputError("vehicle", vehicle.name, allowed, remedy)
             # From the last axle of one to the first of the next, whatever the spacing.
             needed = max(b.vehicle.axles[0].x - a.vehicle.axles[-1].x for a, b in pairs)
             allowed = f"cars {ahead.number} and {car.number} overlap: the last axle of the one is "

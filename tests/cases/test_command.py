@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -200,7 +201,7 @@ def test_lists_and_schema(capsys):
     ("content", "words"),
     [
         (b"not TOML [", "not a valid TOML file"),
-        (b"\x7fELF\x00\xff\xfe", "not a valid TOML file"),
+        (b"\x7fELF\x00\xff\xfe", "case.toml: is not text"),
         (b"", "deck: is missing"),
         (b"[deck]\n[train]\n", "run: is missing"),
         (b"deck = 3\ntrain = 4\nrun = 5", "deck = 3: must be a table"),
@@ -240,7 +241,7 @@ def test_what_is_no_case_file_is_refused(here, capsys, content, words):
         ('"harmonic"', '"harmonc"', "track.vertical.kind = 'harmonc'"),
         ("points = [6.0]", "points = [6.0, 60.0]", "output.points[2] = 60.0"),
         ("time_step = 4e-3", "time_step = 4e-9", "GB"),
-        ("speed = 40.0", "speed = 1e-6", "run.time_step"),
+        ("speed = 40.0", "speed = 1e-6", "run.speed"),
     ],
 )
 def test_a_bad_case_is_refused_with_the_path_of_the_key(here, capsys, before, after, words):
@@ -315,7 +316,14 @@ def test_what_stops_in_the_middle_leaves_nothing(here, capsys, monkeypatch, erro
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals differ")
-def test_ctrl_c_stops_the_command_with_130(here):
+@pytest.mark.parametrize(
+    ("number", "code", "words"),
+    [
+        (signal.SIGINT, 130, "interrupted; nothing was written"),
+        (signal.SIGTERM, 143, "stopped; nothing was written"),
+    ],
+)
+def test_who_is_stopped_leaves_nothing(here, number, code, words):
     long = [
         "--set",
         "train.cars=40",
@@ -329,7 +337,7 @@ def test_ctrl_c_stops_the_command_with_130(here):
     def listen():
         # A shell that starts the tests in the background has SIGINT ignored, and children inherit
         # that.
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        signal.signal(number, signal.SIG_DFL)
 
     with subprocess.Popen(
         program, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=listen
@@ -341,11 +349,72 @@ def test_ctrl_c_stops_the_command_with_130(here):
         ):
             time.sleep(0.05)
         time.sleep(0.3)
-        process.send_signal(signal.SIGINT)
+        process.send_signal(number)
         _, err = process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert "Traceback" not in err
+    assert process.returncode == code
+    assert err.splitlines()[-1] == f"railbridge: {words}" and "Traceback" not in err
     assert os.listdir() == ["case.toml"]
+
+
+def shell(line):
+    """Code, output and complaints of the command in a shell; its streams are what matters here."""
+    command = f"{shlex.quote(sys.executable)} -m railbridge {line}"
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell of Unix")
+@pytest.mark.parametrize("streams", ["2>&-", ">&- 2>&-", "2>/dev/full", ">/dev/full"])
+def test_results_do_not_need_somebody_who_listens(here, streams):
+    code, out, _ = shell(f"run case.toml --out r --set run.lead_in=5 {streams}")
+    assert (code, out) == (0, "")
+    assert set(os.listdir("r")) == FILES
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell of Unix")
+def test_output_that_cannot_be_written_is_told_once(here):
+    code, _, err = shell("list >/dev/full")
+    assert (code, err) == (1, "railbridge: the output: No space left on device\n")
+    assert shell("check case.toml >&-")[0] == 0
+    code, out, err = shell("schema | head -n 1")
+    assert (out, err) == ("{\n", "")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="limits differ")
+def test_a_starter_that_finds_no_room_leaves_nothing(here):
+    import resource  # Unix only
+
+    def full():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+    done = subprocess.run(
+        [sys.executable, "-B", "-m", "railbridge", "new", "mine.toml"],
+        capture_output=True, text=True, preexec_fn=full,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "mine.toml': cannot be written (File too large)" in done.stderr
+    assert os.listdir() == ["case.toml"]
+    assert cli.main(["new", "mine.toml"]) == 0
+
+
+@pytest.mark.parametrize("module", ["__init__", "cases/command"])
+def test_ctrl_c_while_packages_are_loaded_is_one_line(tmp_path, module):
+    """The program that is installed stands outside the package, which loads most of them."""
+    root = Path(cli.__file__).parents[2]
+    script = tomllib.loads((root.parent / "pyproject.toml").read_text(encoding="utf-8"))
+    entry, _, function = script["project"]["scripts"]["railbridge"].partition(":")
+    assert root.joinpath(f"{entry}.py").is_file()
+    for name in ("__init__", "cases/__init__", "cases/command"):
+        path = tmp_path / "railbridge" / f"{name}.py"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("raise KeyboardInterrupt\n" if name == module else "")
+    done = subprocess.run(
+        [sys.executable, "-c", f"import sys\nfrom {entry} import {function}\nsys.exit(main())"],
+        capture_output=True, text=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(root)])},
+    )  # fmt: skip
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == "railbridge: interrupted; nothing was written\n"
 
 
 def test_progress_is_one_line_in_a_terminal(monkeypatch, capsys):
@@ -462,7 +531,8 @@ HOSTILE = "\\u001b[31mred\\u0007\\u009b2J\\u202e"
 def test_escapes_in_names_are_shown_not_obeyed(here, capsys, content):
     Path("case.toml").write_text(content, encoding="utf-8")
     line = refused(capsys, "check", "case.toml")
-    assert line.isprintable() and "\\x1b[31m" in line
+    # In a key as JSON writes it, in a value as Python does.
+    assert line.isprintable() and re.search(r"\\(x1b|u001b)\[31m", line)
 
 
 def test_escapes_in_names_of_files_are_shown_not_obeyed(here, capsys):

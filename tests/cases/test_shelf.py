@@ -76,7 +76,10 @@ def test_good_parameter_tables(tmp_path, text):
         ),
         (HEADER + "m,mass,2,t\n", "line 2 = .*must have 6 cells, it has 4"),
         (HEADER + 'm,mass,"50,990",kg,,\n', "mass = '50,990': may have a mark for thousands"),
-        (HEADER.replace(",", " ") + "m mass 2 t\n", "unknown column. Separate cells by commas"),
+        (
+            HEADER.replace(",", " ") + "m mass 2 t\n",
+            "has none of the columns of such a table. Separate cells by commas",
+        ),
         (HEADER + "m,mass,,t,,\n", "mass = '': is blank, must be a number"),
     ],
 )

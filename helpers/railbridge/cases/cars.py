@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from .. import errors
-from ..errors import Range, within
+from ..errors import InputError, Range, within
 from ..vehicles import Body, Spring, Vehicle
 
 __all__ = [
@@ -56,6 +56,11 @@ def two_bogie_car(name: str, **parameters: float) -> Vehicle:
         p = {key: CAR_PARAMETERS[key].checked(key, value) for key, value in parameters.items()}
     bogie_z = p["primary_below_bogie"]
     secondary_z = bogie_z + p["secondary_above_bogie"]
+    if p["axle_spacing"] >= p["bogie_spacing"]:
+        allowed = f"must be below bogie_spacing, {p['bogie_spacing']:g} m: bogies overlap"
+        remedy = "It is the distance of the two axles of a bogie, in m"
+        source = f"vehicle {name}"
+        raise InputError("axle_spacing", p["axle_spacing"], allowed, remedy, source)
     inertia = {
         body: tuple(p[f"{body}_{rotation}_inertia"] for rotation in ("roll", "pitch", "yaw"))
         for body in ("car_body", "bogie")

@@ -196,7 +196,7 @@ def case(source: str | Path | Mapping[str, Any], changes: Mapping[str, Any] | No
     if isinstance(source, Mapping):
         return Case(changed(source, changes or {}))
     path = shelf.data_file("cases", source, ".toml")
-    content, changes = shelf.read_toml(path), changes or {}
+    content, changes = shelf.read_toml(path, tables.CASE.model_fields), changes or {}
     if shelf.is_path(source):
         return Case(_beside(changed(content, changes), path.parent))
     # Nobody knows in which folder a shipped case stands: changes are relative to one's own.

@@ -49,7 +49,7 @@ def vehicle(source: str | Path) -> Vehicle:
     if path.suffix == ".csv":
         with within(source=path.name):
             return two_bogie_car(path.stem, **car_parameters(path))
-    content = shelf.read_toml(path)
+    content = shelf.read_toml(path, tables.VEHICLE.model_fields)
     with within("", {"bodies": "body", "springs": "spring"}, path.name):
         return _vehicle_from_table(path.stem, content)
 
@@ -157,7 +157,7 @@ def deck(source: str | Path) -> Deck:
         Unknown name (the nearest is suggested), or bad content.
     """
     path = shelf.data_file("decks", source, ".toml")
-    content = exchange.beside(shelf.read_toml(path), path.parent)
+    content = exchange.beside(shelf.read_toml(path, tables.DECK_KEYS), path.parent)
     with within(source=path.name):
         return _deck_from_table(path.stem, content)
 
@@ -171,7 +171,7 @@ def box(source: str | Path) -> Box:
         Unknown name, a deck file without the table ``[box]``, or bad content.
     """
     path = shelf.data_file("decks", source, ".toml")
-    content = shelf.read_toml(path)
+    content = shelf.read_toml(path, tables.DECK_KEYS)
     with within(source=path.name):
         if "box" not in content:
             allowed = "this deck file has no such table"
@@ -209,7 +209,7 @@ def deck_of_case(content: Mapping[str, Any]) -> Deck:
             )
     with within("deck.file", {"deck": ""}):
         path = shelf.data_file("decks", t.file, ".toml")
-    own = exchange.beside(shelf.read_toml(path), path.parent)
+    own = exchange.beside(shelf.read_toml(path, tables.DECK_KEYS), path.parent)
     replaced = {name: value for name, value in content.items() if name != "file"}
     if isinstance(own.get("modes"), dict) and "modes" in replaced:
         # A number of modes beside another program's modes means how many of them.
@@ -232,7 +232,10 @@ def _deck_from_table(name: str, content: Mapping[str, Any]) -> Deck:
     t = checked(tables.DECK_FILE, content)
     if isinstance(t, tables.MODAL_DECK):
         return _modal_deck(name, t)
-    return _box_deck(name, t) if isinstance(t, tables.BOX_DECK) else _beam_deck(name, t)
+    if isinstance(t, tables.BOX_DECK):
+        with within(names=_IN_A_BOX_DECK):
+            return _box_deck(name, t)
+    return _beam_deck(name, t)
 
 
 def _beam_deck(name: str, t: Table) -> Deck:
@@ -280,13 +283,18 @@ def _damping(t: Table) -> tuple[float, float] | float:
         return rayleigh(t.damping.ratio, t.damping.frequencies_hz)
 
 
+_IN_A_BOX_DECK = {"bearings": "bearing", "pads": "bearing"} | {
+    dimension: f"box.{dimension}" for dimension in tables.DIMENSIONS
+}
+"""What a deck file calls the fields of a box, and what its shell stands on."""
+
+
 def _box(name: str, t: Table) -> Box:
     pads = []
     for i, line in enumerate(t.bearing or [], start=1):
         with within(f"bearing[{i}]"):
             pads.append(Pads(**{"fixed": ()} | line.given))
-    inside = {dimension: f"box.{dimension}" for dimension in tables.DIMENSIONS}
-    with within(names={"bearings": "bearing", **inside}):
+    with within(names=_IN_A_BOX_DECK):
         return Box(name, t.all_spans, bearings=tuple(pads), tracks=t.tracks or {}, **t.box.given)
 
 

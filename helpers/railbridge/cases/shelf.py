@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 import os
+import re
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, did_you_mean, within
+from ..exchange.reading import read_text
 from ..exchange.tables import read_columns
 from ..units import quantity
 
 __all__ = [
     "data_file", "data_names", "data_root", "is_path", "read_parameters", "read_toml",
 ]  # fmt: skip
+
+LARGEST_TOML = 2e7
+"""Bytes; twenty seconds of reading, and a measured track of a million samples."""
+_QUOTED = re.compile(r"""(['"]).{2,}\1""", re.DOTALL)
+"""What a parser quotes of a file in its complaint, but for single signs."""
 
 
 def data_root() -> Path:
@@ -70,7 +77,7 @@ def data_file(kind: str, name: str | Path, *suffixes: str) -> Path:
             allowed = f"{field} files must end in {' or '.join(suffixes)}"
             said = {(".toml",): f"{field} files are TOML"}.get(suffixes, allowed)
             raise InputError(field, str(name), said)
-        if not _is_file(path):
+        if not _is_there(path):
             remedy = f"Looked in {path.parent.resolve().name or 'the root'}"
             raise InputError(field, str(name), "no such file", remedy)
         return path
@@ -91,21 +98,35 @@ def is_path(name: str | Path) -> bool:
     return path.suffix in (".csv", ".toml") or len(path.parts) > 1
 
 
-def _is_file(path: Path) -> bool:
+def _is_there(path: Path) -> bool:
     try:
-        return path.is_file()
-    except OSError:  # a name too long for the file system
+        return path.exists()
+    except (OSError, ValueError):  # a name that no file system has
         return False
 
 
-def read_toml(path: Path) -> dict[str, Any]:
-    """Read a TOML file; refuse what is not TOML, naming the file."""
+def read_toml(path: Path, known: Iterable[str] = ()) -> dict[str, Any]:
+    """Read a TOML file; refuse what is none, naming the file but not what it says.
+
+    Parameters
+    ----------
+    path : Path
+    known : iterable of str, optional
+        Keys of which a file of the wanted kind has at least one. Of a file without any nothing is
+        said: it may be somebody else's.
+    """
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (ValueError, RecursionError, OSError) as error:
-        raise InputError(
-            "", None, f"is not a valid TOML file ({error})", source=path.name
-        ) from None
+        content = tomllib.loads(read_text(path, largest=LARGEST_TOML).replace("\r\n", "\n"))
+    except InputError as error:
+        raise InputError("", None, error.allowed, error.remedy, path.name) from None
+    except (ValueError, RecursionError) as error:
+        why = _QUOTED.sub("...", str(error))
+        raise InputError("", None, f"is not a valid TOML file ({why})", source=path.name) from None
+    known = list(known)
+    if content and known and not any(key in known for key in content):
+        remedy = f"Known: {', '.join(sorted(known))}. Is it the right file?"
+        raise InputError("", None, "has none of the keys of such a file", remedy, path.name)
+    return content
 
 
 def read_parameters(

@@ -467,6 +467,8 @@ def _kind_of_deck(value: Any) -> str:
 _MAKERS = {"beam": BEAM, "box": BOX_DECK, "modes": MODAL_DECK}
 DECK_FILE = switched(_kind_of_deck, _MAKERS)
 """The content of a deck file."""
+DECK_KEYS = frozenset().union(*(kind.model_fields for kind in _MAKERS.values()))
+"""Keys that a deck file may have, whatever makes its deck."""
 SHIPPED = table(
     "DeckFile",
     "A deck file; modes and damping may replace its own.",

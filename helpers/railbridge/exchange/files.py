@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 import re
 import warnings
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ import numpy as np
 from .. import errors
 from ..decks import Deck
 from ..errors import InputError, within
+from ..settings import MEMORY_LIMIT
 from ..units import factor_of, per_metre
 from .modal import ModalModel
 from .nodes import ModelAxis, Nodes, model_units, read_nodes, stated_units
@@ -34,6 +36,8 @@ __all__ = ["export_modes", "read_modes"]
 _SHAPES = ("ux", "uy", "uz", "rx", "ry", "rz")
 _INERTIAS = ("inertia_x", "inertia_y", "inertia_z")
 _WORST_OVERLAP = 0.1
+_COPIES = 4
+"""Of all shapes, that stand in memory together while modes are checked."""
 
 # ---- modes in
 
@@ -86,6 +90,7 @@ def read_modes(
         if "modal_mass" in table.cells:
             modal_mass = _same_in_mode(table, "modal_mass", order, rows, above=0.0)
         values, known = _values(table, nodes.turn, per_metre(length))
+    _refuse_size(len(order), len(nodes.labels), table.name)
     shapes = np.full((len(order), len(nodes.labels), 6), np.nan)
     index = np.array([place[label] for label in table.labels("node")])
     masses_si = modal_mass * factor_of("units[2]", mass, "mass")
@@ -112,6 +117,16 @@ def read_modes(
     with within(source=table.name):
         _refuse_overlap(model, table.name)
     return model
+
+
+def _refuse_size(modes: int, nodes: int, name: str) -> None:
+    """Refuse shapes that would not fit into memory: a few nodes of very many in many modes, say."""
+    needed = 8.0 * (_COPIES * 6 * modes * nodes + 3 * modes**2)
+    if needed > MEMORY_LIMIT:
+        allowed = f"{modes} modes at {nodes} nodes would need about {needed / 1e9:.3g} GB of memory"
+        allowed += f", too much: the limit is {MEMORY_LIMIT / 1e9:.3g} GB"
+        remedy = "Write fewer modes, and only the nodes of the deck that they move"
+        raise InputError("modes", None, allowed, remedy, name)
 
 
 def _units_of(table: Columns, units: Sequence[str] | None, nodes: Nodes) -> tuple[str, str]:
@@ -141,13 +156,13 @@ def _rows_of_modes(table: Columns, place: Mapping[str, int]) -> tuple[list[str],
     whole = set(nodes)
     for mode, own in rows.items():
         found = [nodes[i] for i in own]
-        missing = sorted(whole - set(found), key=list(place).index)
+        missing = sorted(whole - set(found), key=place.__getitem__)
         if missing:
             listed = ", ".join(missing[:5]) + (" ..." if len(missing) > 5 else "")
             allowed = f"lacks {len(missing)} of the nodes that other modes have: {listed}"
             raise InputError(f"mode {mode}", None, allowed, "Write every mode at the same nodes")
         if len(found) != len(whole):
-            double = next(n for n in found if found.count(n) > 1)
+            double = Counter(found).most_common(1)[0][0]
             remedy = "One line for each mode and node"
             raise InputError(f"mode {mode}: node", double, "is given twice", remedy)
     return list(rows), [np.array(own) for own in rows.values()]

@@ -16,6 +16,7 @@ import numpy as np
 from .. import errors
 from ..errors import InputError, brief
 from ..units import has_decimal_comma, written
+from .reading import read_text
 
 __all__ = ["Columns", "labelled", "read_columns"]
 
@@ -125,16 +126,9 @@ def read_columns(
     """
     try:
         path = Path(path)
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            text = file.read()
-    except FileNotFoundError:
-        remedy = "A path in a deck file is relative to that file"
-        raise InputError("path", path.name, "no such file", remedy) from None
+        text = read_text(path)
     except TypeError:
         raise InputError("path", path, "must be the path of a CSV file") from None
-    except (OSError, ValueError) as error:
-        allowed = f"is not a readable CSV file ({error})"
-        raise InputError("path", path.name, allowed, "Save it as UTF-8 text") from None
     with errors.within(source=path.name):
         separator = _separator(text, [*required, *optional])
         rows, remarks = _read(text, separator)
@@ -220,15 +214,22 @@ def _read(
 
 
 def _check_header(header: list[str], required: Sequence[str], optional: Sequence[str]) -> None:
-    """Refuse columns that are given twice, unknown or missing."""
+    """Refuse columns that are given twice, unknown or missing.
+
+    Of a header without any known name nothing is said: it may be somebody else's file.
+    """
     known = [*required, *optional]
+    if header and not any(name.strip() in known for cell in header for name in cell.split(";")):
+        remedy = "Columns: " + ",".join(known) + ". Is it the right file?"
+        if any(name in known for cell in header for name in cell.split()):
+            remedy = "Separate cells by commas or semicolons"
+        raise InputError("header", None, "has none of the columns of such a table", remedy)
     for column in header:
         if header.count(column) > 1:
             raise InputError(f"column {column}", None, "appears more than once")
         if column not in known:
             near = errors.did_you_mean(column, known)
-            remedy = "Separate cells by commas or semicolons" if " " in column else near
-            raise InputError(f"column {column}", None, "unknown column", remedy)
+            raise InputError(f"column {column}", None, "unknown column", near)
     for column in required:
         if column not in header:
             raise InputError(f"column {column}", None, "is missing", "Columns: " + ",".join(known))
