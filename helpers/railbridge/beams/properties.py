@@ -10,7 +10,9 @@ from typing import Annotated
 import numpy as np
 
 from .. import errors
-from ..errors import InputError, Range, check_fields, within
+from ..errors import InputError, InputWarning, Range, check_fields, within
+from ..plausibility import BOUNDS, doubt, material, soft_bearing
+from ..units import G
 from .bearings import FARTHEST, Bearing, free_motions, on_deck
 from .elements import FIELDS
 
@@ -81,6 +83,24 @@ class Section:
 
     def __post_init__(self) -> None:
         check_fields(self)
+
+    @property
+    def remarks(self) -> tuple[InputWarning, ...]:
+        """What is unlikely to be meant about the section, for `Deck.remarks`."""
+        moments = self.second_moment_vertical, self.second_moment_lateral
+        found = material(self.youngs_modulus, self.density)
+        found += doubt("area", "area", self.area)
+        found += doubt("second_moment", "second_moment_vertical", moments[0])
+        found += doubt("second_moment", "second_moment_lateral", moments[1])
+        if not found and self.torsion_constant > sum(moments):
+            text = f"= {self.torsion_constant:g} m4 is more than I_y + I_z, which no section has: "
+            found.append(InputWarning("torsion_constant", text + "given in another unit?"))
+        for direction in ("vertical", "lateral"):
+            shear = getattr(self, f"shear_area_{direction}")
+            if not found and shear is not None and shear > self.area:
+                text = f"= {shear:g} m2 is more than the area, {self.area:g} m2: given in cm2?"
+                found.append(InputWarning(f"shear_area_{direction}", text))
+        return tuple(found)
 
     def of_beam(self, rotary_inertia: bool = False) -> dict[str, float]:
         """Return what a `Beam` needs to know: mass, stiffnesses and inertias, SI, by its names.
@@ -255,6 +275,49 @@ class BeamProperties:
     @cached_property
     def _span_ends(self) -> np.ndarray:
         return np.concatenate([[0.0], np.cumsum(self.spans)])
+
+    @property
+    def remarks(self) -> tuple[InputWarning, ...]:
+        """What is unlikely to be meant, that a deck made of it does not show; `Deck.remarks`."""
+        found: list[InputWarning] = []
+        for name in ("polar_inertia", "rotary_inertia_vertical", "rotary_inertia_lateral"):
+            inertia = getattr(self, name)
+            if inertia is not None:
+                found += self._odd_radius(name, inertia, inertia / self.mass, "mass", "t m")
+        if self.axial_stiffness is not None:
+            square = self.bending_stiffness_vertical / self.axial_stiffness
+            found += self._odd_radius(
+                "axial_stiffness", self.axial_stiffness, square, "bending_stiffness_vertical", "kN"
+            )
+        for name in ("vertical", "lateral"):
+            found += self._odd_shear(name)
+        found += doubt("track_height", "centroid_height", self.centroid_height)
+        held = sum("z" in b.restrained for b in self.bearings)
+        for i, bearing in enumerate(self.bearings, start=1):
+            for direction, spring in bearing.stiffness.items():
+                weight = self.mass * self.length * G / max(held, 1)
+                field = f"bearings[{i}].stiffness.{direction}"
+                found += soft_bearing(field, direction, spring, weight)
+            found += doubt("track_height", f"bearings[{i}].z", bearing.z)
+        return tuple(found)
+
+    def _odd_radius(
+        self, name: str, value: float, square: float, beside: str, unit: str
+    ) -> list[InputWarning]:
+        """Doubt a value that gives a section an odd radius of gyration, squared (m2)."""
+        bound = BOUNDS["radius"]
+        if bound.low <= square <= bound.high:
+            return []
+        text = f"= {value:g} beside {beside} gives a radius of gyration of {np.sqrt(square):.3g} m:"
+        return [InputWarning(name, f"{text} given in {unit}?")]
+
+    def _odd_shear(self, name: str) -> list[InputWarning]:
+        share = self.shear_flexibility(name) / max(self.spans) ** 2
+        if share <= BOUNDS["shear_share"].high:
+            return []
+        field = f"shear_stiffness_{name}"
+        text = f"= {getattr(self, field):g} N makes the deck give way in shear {share * 10:.2g} "
+        return [InputWarning(field, text + "times as much as in bending: given in kN?")]
 
     def _placed_bearings(self) -> tuple[Bearing, ...]:
         """Return the given or usual bearings, one under each span where simple spans meet."""

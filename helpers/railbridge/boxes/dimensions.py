@@ -15,7 +15,9 @@ import numpy as np
 
 from .. import errors
 from ..beams import checked_spans, on_deck
-from ..errors import InputError, Range, check_fields, within
+from ..errors import InputError, InputWarning, Range, check_fields, within
+from ..plausibility import material, soft_bearing
+from ..units import G
 from .pads import DIRECTIONS, STIFFEST
 from .section import refuse_crossing
 
@@ -304,6 +306,25 @@ class BoxDimensions:
         if self.root_thickness > self.slab_thickness and knee < top - 1e-6:
             corners.append((knee, self.depth - self.slab_thickness))
         return np.array(corners + [(-y, z) for y, z in reversed(corners)])
+
+    # ---- doubts
+
+    @property
+    def remarks(self) -> tuple[InputWarning, ...]:
+        """What is unlikely to be meant, that a deck made of it does not show; `Deck.remarks`."""
+        found = material(self.youngs_modulus, self.density)
+        for name in ("track_mass", "edge_mass"):
+            carried = getattr(self, name)
+            if 0.0 < carried < 20.0:
+                text = f"= {carried:g} kg/m, rails alone have 120: given in t/m?"
+                found.append(InputWarning(name, text))
+        held = sum(len(p.sides) for p in self.bearings if "z" in (*p.fixed, *p.stiffness))
+        for i, line in enumerate(self.bearings, start=1):
+            for direction, spring in line.stiffness.items():
+                weight = self.mass_per_metre * self.length * G / max(held, 1)
+                field = f"bearings[{i}].stiffness.{direction}"
+                found += soft_bearing(field, direction, spring, weight)
+        return tuple(found)
 
     # ---- mass
 

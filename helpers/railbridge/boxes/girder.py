@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -113,9 +113,10 @@ class Box(BoxDimensions):  # noqa: D101
         See `beam` for the switches.
         """
         height = self.depth - self.section.shear_centre[1]
-        return self.beam(**switches).deck(
+        made = self.beam(**switches).deck(
             modes, damping, dict(self.tracks), self.slab_width, height
         )
+        return replace(made, remarks=self.remarks)
 
     # ---- shell
 
@@ -153,6 +154,7 @@ class Box(BoxDimensions):  # noqa: D101
             width=self.slab_width,
             track_height=self.head_thickness / 2,
             mass_per_metre=self.mass_per_metre,
+            remarks=self.remarks,
         )
 
     def convergence(self, factors: tuple[float, ...] = (0.5, 1.0, 1.5, 2.0), modes: int = 15):

@@ -131,11 +131,22 @@ class Case:
         """What is unlikely to be meant, in the words of the case; known before anything is run."""
         found = [remark.moved("deck") for remark in self.deck.remarks]
         found += doubts(self.train, self.deck, self.track, self.settings)
-        return [remark.moved(names=IN_A_CASE) for remark in found]
+        return [self._in_its_words(remark) for remark in found]
 
     def remarks(self, run: Crossing) -> list[Remark]:
         """Return what must be known before a run of this case is read, in the case's words."""
-        return [remark.moved(names=IN_A_CASE) for remark in remarks(run)]
+        return [self._in_its_words(remark) for remark in remarks(run)]
+
+    def _in_its_words(self, remark: Remark) -> Remark:
+        """Return a remark whose field is a key of this case or of the files it names."""
+        words = objects.words_of_deck(self.content["deck"])
+        words |= {"train.notches": "train.notch"}
+        if "vehicle" not in self.content["train"]:
+            words["train.vehicle"] = "train.cars"
+        for name, key in words.items():
+            if remark.field == name or remark.field.startswith((f"{name}.", f"{name}[")):
+                return type(remark)(key + remark.field[len(name) :], remark.text)
+        return remark.moved(names=IN_A_CASE)
 
     def summary(self, run: Crossing | None = None) -> dict[str, Any]:
         """Return the numbers engineers look at first; see `summarize`.
