@@ -70,7 +70,8 @@ class Bound:
         """Return in words what was probably done wrong, as a question."""
         low, high = self.usual or (self.low, self.high)
         likely = [words for factor, words in self.slips if low <= abs(value) * factor <= high]
-        return (" or ".join(likely[:2]) or "is its decimal point right") + "?"
+        question = " or ".join(likely[:2]).replace(" or given in ", " or ")
+        return (question or "is its decimal point right") + "?"
 
 
 _MM, _CM = (1e-3, "given in mm"), (1e-2, "given in cm")
@@ -133,9 +134,12 @@ BOUNDS = {
         "EN 1991-2, Table 6.6: 0.005 to 0.03; the most heavily damped foot bridges 0.1",
         ((1e-2, "given in per cent"),), (1e-3, 0.1),
     ),
-    "radius": Bound(
-        "square of the radius of gyration (an inertia over a mass, E I over E A)", 1e-3, 200.0,
-        "m2", "0.1 m slabs to trusses 30 m deep",
+    "polar_radius": Bound(
+        "radius of gyration of a section in twist", 0.15, 20.0, "m", "0.5 to 60 m wide"
+    ),
+    "bending_radius": Bound(
+        "radius of gyration of a section in bending", 0.01, 20.0, "m",
+        "slabs 0.1 m deep to trusses 40 m deep",
     ),
     "shear_share": Bound(
         "E I / (kGA L2), what shear adds to bending", 0.0, 0.5, "",
@@ -351,12 +355,24 @@ def _signs(deck: Deck) -> _Signs:
         next(iter(deck.frequencies_hz[(kinds == c) & (sizes[:, c] > 0.0)].tolist()), None)
         for c in range(3)
     )
-    shape = None if vertical is None else values[:, vertical, 1]
-    span = longest_span(deck.supports, deck.length, x, shape)
     if vertical is None or not sizes[vertical, 1] > 0.0:
-        return _Signs(span, None, lateral, torsion, None)
+        span = longest_span(deck.supports, deck.length, x, None)
+        return _Signs(span, _from_sag(deck, span), lateral, torsion, None)
+    span = longest_span(deck.supports, deck.length, x, values[:, vertical, 1])
     first = float(deck.frequencies_hz[vertical])
     return _Signs(span, first, lateral, torsion, float(deck.damping_ratios[vertical]))
+
+
+def _from_sag(deck: Deck, span: float) -> float | None:
+    """Return the first vertical frequency that the sag under self-weight tells, Hz.
+
+    EN 1991-2, 6.4.4: 17.75 / sqrt(sag in mm). For decks whose vertical modes are not among those
+    kept; None where no self-weight is known.
+    """
+    line = deck.recovery.section("displacement_z", _middle(deck, span))
+    if line is None or not abs(line.self_weight) > 0.0:
+        return None
+    return 17.75 / float(np.sqrt(1e3 * abs(line.self_weight)))
 
 
 def longest_span(
@@ -406,8 +422,8 @@ def _explained(deck: Deck, found: Sequence[InputWarning] = ()) -> bool:
 
 
 def _of_deck(deck: Deck) -> list[InputWarning]:
-    found = _damping(deck, _signs(deck)) + _places(deck)
-    return found if _explained(deck) else found + scale_in_doubt(deck)
+    found = _places(deck) + ([] if _explained(deck) else scale_in_doubt(deck))
+    return found + _damping(deck, _signs(deck), bool(found) or _explained(deck))
 
 
 def scale_in_doubt(deck: Deck) -> list[InputWarning]:
@@ -437,7 +453,7 @@ def _frequency(deck: Deck, signs: _Signs) -> list[InputWarning]:
     field, mass = _stiffness(deck), deck.mass_per_metre
     off = frequency_off(signs.vertical, signs.span)
     drawn = _FIGURE[0] <= signs.span <= _FIGURE[1]
-    if drawn and mass and mass > 5e4 and -BELOW <= off < -1.5:
+    if drawn and mass and mass > 5e4 and off < -1.5:
         low, high = first_frequencies(signs.span)
         if low <= signs.vertical * np.sqrt(G) <= high and 2e3 <= mass / G <= 4e4:
             text = f"= {mass:g} kg/m makes the first vertical frequency {signs.vertical:.3g} Hz"
@@ -500,7 +516,9 @@ def _why(frequency: float, span: float, modes_only: bool, mass: float | None) ->
             (fits(1e-3), "a million times too stiff, or second moments in another unit"),
             (fits(0.3048**-2, 0.3048), "spans given in feet"),
             (fits(np.sqrt(10)), "ten times too soft"),
+            (fits(10.0), "a hundred times too soft"),
             (fits(np.sqrt(0.1)), "ten times too stiff"),
+            (fits(0.1), "a hundred times too stiff"),
         ]
     likely = [words for fit, words in slips if fit]
     return (likely[0] if likely else "are stiffness, mass and lengths in SI units") + "?"
@@ -528,7 +546,7 @@ def _sideways(deck: Deck, signs: _Signs) -> list[InputWarning]:
     found = []
     for name, field, first, least in [
         ("torsional", "deck.torsional_stiffness", torsion, _LOW_TORSION * vertical),
-        ("lateral", "deck.bending_stiffness_lateral", lateral, min(_LOW_LATERAL * vertical, 0.4)),
+        ("lateral", "deck.bending_stiffness_lateral", lateral, min(_LOW_LATERAL * vertical, 1.2)),
     ]:
         if first is not None and first < least:
             text = f"gives a first {name} frequency of {first:.3g} Hz, the vertical one is "
@@ -559,15 +577,18 @@ def _own_sag(deck: Deck, signs: _Signs) -> list[InputWarning]:
     return [InputWarning(_stiffness(deck), text)]
 
 
-def _damping(deck: Deck, signs: _Signs) -> list[InputWarning]:
+def _damping(deck: Deck, signs: _Signs, scale_doubted: bool) -> list[InputWarning]:
+    """Doubt the ratio and, where the deck's frequencies are right, Rayleigh's two of damping."""
     if signs.ratio is None or any(r.field.startswith("damping") for r in deck.remarks):
         return []
-    if signs.ratio > BOUNDS["damping_ratio"].high:
-        percent = 100 * signs.ratio
-        text = f"= {signs.ratio:.3g} is {percent:.3g} % of critical in the first vertical mode: "
-        text += f"given in per cent? {signs.ratio:.3g} % is {signs.ratio / 100:.3g}"
-        return [InputWarning("deck.damping_ratios", text)]
-    return _off_the_valley(deck, signs)
+    if signs.ratio <= BOUNDS["damping_ratio"].high:
+        return [] if scale_doubted else _off_the_valley(deck, signs)
+    if scale_doubted and not np.allclose(deck.damping_ratios, signs.ratio):
+        return []  # Rayleigh's ratio follows from the frequency
+    percent = 100 * signs.ratio
+    text = f"= {signs.ratio:.3g} is {percent:.3g} % of critical in the first vertical mode: "
+    text += f"given in per cent? {signs.ratio:.3g} % is {signs.ratio / 100:.3g}"
+    return [InputWarning("deck.damping_ratios", text)]
 
 
 def _off_the_valley(deck: Deck, signs: _Signs) -> list[InputWarning]:
@@ -593,7 +614,7 @@ def damping_frequencies(field: str, given: Sequence[float], deck: Deck) -> list[
     For who knows them: a deck knows only what follows.
     """
     first, lowest = _signs(deck).vertical, min(given)
-    if first is None or lowest <= _VALLEY * first:
+    if first is None or lowest <= _VALLEY * first or _explained(deck) or scale_in_doubt(deck):
         return []
     text = f"= {list(given)} Hz, the first vertical frequency is {first:.3g} Hz: given in rad/s?"
     return [InputWarning(field, text)]
@@ -699,8 +720,10 @@ def _of_spacing(train: Train) -> list[InputWarning]:
     if spacing < longest - 0.5 and axles > 1:
         return [InputWarning("train.car_spacing", text + "is it shorter than the car?")]
     if spacing > longest + BOUNDS["car_length"].high:
-        slip = BOUNDS["car_length"].slip(spacing)
-        return [InputWarning("train.car_spacing", text + slip)]
+        slips = ((10.0, "ten times too large"), (1e2, "given in cm"), (1e3, "given in mm"))
+        likely = [words for k, words in slips if longest - 0.5 <= spacing / k <= 2 * longest]
+        slip = likely[0] if likely else "is its decimal point right"
+        return [InputWarning("train.car_spacing", f"{text}{slip}?")]
     return []
 
 

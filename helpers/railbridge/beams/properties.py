@@ -279,16 +279,20 @@ class BeamProperties:
     @property
     def remarks(self) -> tuple[InputWarning, ...]:
         """What is unlikely to be meant, that a deck made of it does not show; `Deck.remarks`."""
-        found: list[InputWarning] = []
-        for name in ("polar_inertia", "rotary_inertia_vertical", "rotary_inertia_lateral"):
+        found = doubt("mass", "mass", self.mass)
+        if found:  # the radii below follow from it
+            return tuple(found)
+        for name, bound in (
+            ("polar_inertia", "polar_radius"),
+            ("rotary_inertia_vertical", "bending_radius"),
+            ("rotary_inertia_lateral", "polar_radius"),
+        ):
             inertia = getattr(self, name)
             if inertia is not None:
-                found += self._odd_radius(name, inertia, inertia / self.mass, "mass", "t m")
+                found += self._odd_radius(name, bound, inertia / self.mass, "t m")
         if self.axial_stiffness is not None:
             square = self.bending_stiffness_vertical / self.axial_stiffness
-            found += self._odd_radius(
-                "axial_stiffness", self.axial_stiffness, square, "bending_stiffness_vertical", "kN"
-            )
+            found += self._odd_radius("axial_stiffness", "bending_radius", square, "kN")
         for name in ("vertical", "lateral"):
             found += self._odd_shear(name)
         found += doubt("track_height", "centroid_height", self.centroid_height)
@@ -301,15 +305,15 @@ class BeamProperties:
             found += doubt("track_height", f"bearings[{i}].z", bearing.z)
         return tuple(found)
 
-    def _odd_radius(
-        self, name: str, value: float, square: float, beside: str, unit: str
-    ) -> list[InputWarning]:
+    def _odd_radius(self, name: str, bound: str, square: float, unit: str) -> list[InputWarning]:
         """Doubt a value that gives a section an odd radius of gyration, squared (m2)."""
-        bound = BOUNDS["radius"]
-        if bound.low <= square <= bound.high:
+        radius, usual = float(np.sqrt(square)), BOUNDS[bound]
+        # A section is not a third of its span deep.
+        most = min(usual.high, max(self.spans) / 6) if name == "axial_stiffness" else usual.high
+        if usual.low <= radius <= most:
             return []
-        text = f"= {value:g} beside {beside} gives a radius of gyration of {np.sqrt(square):.3g} m:"
-        return [InputWarning(name, f"{text} given in {unit}?")]
+        text = f"= {getattr(self, name):g} gives a radius of gyration of {radius:.3g} m, usual is "
+        return [InputWarning(name, f"{text}{usual.range}: given in {unit}?")]
 
     def _odd_shear(self, name: str) -> list[InputWarning]:
         share = self.shear_flexibility(name) / max(self.spans) ** 2

@@ -10,7 +10,9 @@ from __future__ import annotations
 import copy
 import warnings
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import InitVar, dataclass, field, fields
+from functools import cached_property
 from pathlib import Path
 from pprint import pformat
 from typing import Any
@@ -137,13 +139,19 @@ class Case:
         """Return what must be known before a run of this case is read, in the case's words."""
         return [self._in_its_words(remark) for remark in remarks(run)]
 
-    def _in_its_words(self, remark: Remark) -> Remark:
-        """Return a remark whose field is a key of this case or of the files it names."""
-        words = objects.words_of_deck(self.content["deck"])
-        words |= {"train.notches": "train.notch"}
+    @cached_property
+    def _words(self) -> dict[str, str]:
+        """What this case calls a deck's and a train's fields, by their names in Python."""
+        words = {"train.notches": "train.notch"}
         if "vehicle" not in self.content["train"]:
             words["train.vehicle"] = "train.cars"
-        for name, key in words.items():
+        with suppress(InputError):  # a deck file that has gone since
+            words |= objects.words_of_deck(self.content["deck"])
+        return words
+
+    def _in_its_words(self, remark: Remark) -> Remark:
+        """Return a remark whose field is a key of this case or of the files it names."""
+        for name, key in self._words.items():
             if remark.field == name or remark.field.startswith((f"{name}.", f"{name}[")):
                 return type(remark)(key + remark.field[len(name) :], remark.text)
         return remark.moved(names=IN_A_CASE)

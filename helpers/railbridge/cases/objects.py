@@ -292,18 +292,20 @@ def _beam_deck(name: str, t: Table) -> Deck:
         )
         made = beam.deck(t.modes, _damping(t), _tracks(t), t.width, t.track_height)
     # What follows from the section is doubted there.
-    own = [r for r in beam.remarks if not t.has("section") or r.field not in tables.STIFFNESSES]
+    derived = ("mass", *tables.STIFFNESSES) if t.has("section") else ()
+    own = [remark for remark in beam.remarks if remark.field not in derived]
     doubted += [remark.moved(names={"bearings": "bearing"}) for remark in own]
     return _doubted(replace(made, remarks=()), t, doubted)
 
 
 def _doubted(deck: Deck, t: Table, found: Iterable[Remark] = ()) -> Deck:
     """Return a deck with what its table makes doubtful, in the table's words."""
-    found = [*deck.remarks, *found]
-    if t.damping is not None and t.damping.has("frequencies_hz"):
-        path = "damping.frequencies_hz"
-        found += damping_frequencies(path, t.damping.frequencies_hz, deck)
-    return replace(deck, remarks=tuple(found))
+    deck = replace(deck, remarks=(*deck.remarks, *found))
+    if t.damping is None or not t.damping.has("frequencies_hz"):
+        return deck
+    given = t.damping.frequencies_hz
+    doubted = damping_frequencies("damping.frequencies_hz", given, deck)
+    return replace(deck, remarks=(*deck.remarks, *doubted))
 
 
 def _refuse_beside(y: float, width: float | None) -> None:
