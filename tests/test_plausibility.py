@@ -13,9 +13,10 @@ import pytest
 from modal_files import EXAMPLE, cells, change
 
 import railbridge as rb
+from railbridge.bounds import BOUNDS, first_frequencies, frequency_off
 from railbridge.cases import shelf
 from railbridge.errors import InputWarning
-from railbridge.plausibility import BOUNDS, doubts, first_frequencies, frequency_off
+from railbridge.plausibility import doubts
 from railbridge.settings import check
 from railbridge.validation import crossings, references, scenarios
 
@@ -227,7 +228,7 @@ SLIPS = [
     car("masses in t", "given in t", car_body_mass=50.99, bogie_mass=4.36),
     car("mass in g", "given in g", car_body_mass=50.99e6),
     car("length in mm", "mm", length=22500.0),
-    car("axle spacing in mm", "spacing|mm", axle_spacing=2500.0),
+    car("axle spacing in mm", "axle distance.*in [mc]m", axle_spacing=2500.0),
     car("bogie spacing in mm", "mm", bogie_spacing=15600.0),
     car("wheels in mm from the middle", "mm", primary_half_width=980.0),
     car("springs in kN/m", "kN/m", primary_vertical_stiffness=2976.0,
@@ -567,7 +568,7 @@ def test_doubts_are_in_the_words_of_mixed_trains_too(folder):
     (folder / "car.csv").write_text(text.replace("50990", "50.990"), encoding="utf-8")
     case = made("viaduct", {"train.vehicle": None, "train.cars": ["xia2000", "./car.csv"]})
     assert [d.field for d in case.doubts] == ["train.cars"]
-    assert "car: mass of car = 50.99 kg" in str(case.doubts[0])
+    assert "(car): mass of car = 50.99 kg" in str(case.doubts[0])
 
 
 def test_doubts_are_cheap():

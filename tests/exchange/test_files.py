@@ -393,7 +393,8 @@ def test_doubtful_models_are_warned_about(folder):
     change(folder / "modes.csv", scaled(1, 2 * np.pi))
     turned = rb.deck(folder / "deck.toml")
     with pytest.warns(
-        rb.errors.InputWarning, match=r"frequency of 20.8 Hz, bridges of 36 m have about 2.8 to 6.5 Hz"
+        rb.errors.InputWarning,
+        match=r"frequency of 20.8 Hz, bridges of 36 m have about 2.8 to 6.5 Hz",
     ):
         crossing(turned, interaction="rigid", iterations=None)
     change(folder / "modes.csv", scaled(1, 0.5 / np.pi))

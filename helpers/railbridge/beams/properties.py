@@ -10,8 +10,8 @@ from typing import Annotated
 import numpy as np
 
 from .. import errors
+from ..bounds import BOUNDS, doubt, material, soft_bearing
 from ..errors import InputError, InputWarning, Range, check_fields, within
-from ..plausibility import BOUNDS, doubt, material, soft_bearing
 from ..units import G
 from .bearings import FARTHEST, Bearing, free_motions, on_deck
 from .elements import FIELDS
@@ -295,14 +295,14 @@ class BeamProperties:
             found += self._odd_radius("axial_stiffness", "bending_radius", square, "kN")
         for name in ("vertical", "lateral"):
             found += self._odd_shear(name)
-        found += doubt("track_height", "centroid_height", self.centroid_height)
+        found += doubt("height", "centroid_height", self.centroid_height)
         held = sum("z" in b.restrained for b in self.bearings)
         for i, bearing in enumerate(self.bearings, start=1):
             for direction, spring in bearing.stiffness.items():
                 weight = self.mass * self.length * G / max(held, 1)
                 field = f"bearings[{i}].stiffness.{direction}"
                 found += soft_bearing(field, direction, spring, weight)
-            found += doubt("track_height", f"bearings[{i}].z", bearing.z)
+            found += doubt("height", f"bearings[{i}].z", bearing.z)
         return tuple(found)
 
     def _odd_radius(self, name: str, bound: str, square: float, unit: str) -> list[InputWarning]:

@@ -15,8 +15,8 @@ import numpy as np
 
 from .. import errors
 from ..beams import checked_spans, on_deck
+from ..bounds import doubt, material, soft_bearing
 from ..errors import InputError, InputWarning, Range, check_fields, within
-from ..plausibility import material, soft_bearing
 from ..units import G
 from .pads import DIRECTIONS, STIFFEST
 from .section import refuse_crossing
@@ -315,9 +315,8 @@ class BoxDimensions:
         found = material(self.youngs_modulus, self.density)
         for name in ("track_mass", "edge_mass"):
             carried = getattr(self, name)
-            if 0.0 < carried < 20.0:
-                text = f"= {carried:g} kg/m, rails alone have 120: given in t/m?"
-                found.append(InputWarning(name, text))
+            if carried:
+                found += doubt("track_mass", name, carried)
         held = sum(len(p.sides) for p in self.bearings if "z" in (*p.fixed, *p.stiffness))
         for i, line in enumerate(self.bearings, start=1):
             for direction, spring in line.stiffness.items():

@@ -29,18 +29,11 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .. import errors
+from ..bounds import BOUNDS, frequency_off, usual_frequencies
 from ..decks import Deck, rayleigh_ratio
 from ..errors import InputError, Remark
 from ..guideways import PiecewiseCubic
-from ..plausibility import (
-    BOUNDS,
-    UNUSUAL,
-    first_frequencies,
-    first_vertical,
-    frequency_off,
-    longest_span,
-    scale_in_doubt,
-)
+from ..plausibility import UNUSUAL, first_vertical, longest_span, scale_in_doubt
 from .interpolation import cubics, hermite, parabolas, spline
 from .nodes import Nodes, RailLine
 
@@ -350,9 +343,7 @@ def _refuse_units(
     span = longest_span(supports, line.length, x, shape)
     first = float(frequencies[mode])
     if abs(frequency_off(first, span)) > _FAR:
-        low, high = first_frequencies(span)
-        usual = f"bridges of {span:.3g} m have about {low:.2g} to {high:.2g} Hz"
-        allowed = f"lies an order of magnitude away: {usual}"
+        allowed = f"lies an order of magnitude away: {usual_frequencies(span)}"
         remedy = "Check the units of length (mm or m?) and of frequency (Hz, not rad/s); "
         remedy += "unusual = true if the deck is so"
         raise InputError("modes: first frequency", first, allowed, remedy)
