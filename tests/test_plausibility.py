@@ -196,6 +196,16 @@ SLIPS = [
     girder("weight in N/m for mass", "mass", 88.3e3, "N/m"),
     girder("mass of the whole deck", "mass", 9000.0 * 20, "weight"),
     # bearings
+    Slip("girder", "stiffness and mass of a footpath", {
+        "deck.bending_stiffness_vertical": 2.7e8, "deck.mass": 120.0,
+        "deck.bending_stiffness_lateral": None, "deck.torsional_stiffness": None,
+        "deck.polar_inertia": None,
+    }, "deck.bending_stiffness_vertical", "under the standing train"),
+    Slip("girder", "weight in kN/m for mass, heavy", {
+        "deck.length": 60.0, "deck.bending_stiffness_vertical": 8e11, "deck.mass": 294.0,
+        "deck.bending_stiffness_lateral": None, "deck.torsional_stiffness": None,
+        "deck.polar_inertia": None,
+    }, "deck.mass", "kN/m"),
     springs("z in kN/m", 1, "z", 2e6, "kN/m"),
     springs("z in MN/m", 2, "z", 2e3, "MN/m"),
     springs("z 1e3", 1, "z", 1e3, "MN/m"),

@@ -75,7 +75,7 @@ _WEIGHT = 1 / G
 
 BOUNDS = {
     "youngs_modulus": Bound(
-        "E", 1e9, 4e11, "Pa", "timber 8e9 (EN 338) to steel 2.1e11 (EN 1993-1-1)",
+        "E", 1e9, 4e11, "Pa", "timber 7e9 (EN 338) to steel 2.1e11 (EN 1993-1-1)",
         ((1e6, "given in MPa"), (1e9, "given in GPa"), (1e3, "given in kN/m2")), (4e9, 2.3e11),
     ),
     "density": Bound(
@@ -148,7 +148,7 @@ BOUNDS = {
         "rad/s for Hz makes it 6.3",
     ),
     "axle_load": Bound(
-        "axle load", 27e3, 1e6, "N",
+        "load of a bare axle", 27e3, 1e6, "N",
         "empty trams to axles of 40 t; 1e6 where one force stands for a car",
         ((1e3, "given in kN"), (1e3 * G, "given in t"), (G, "given in kg"),
          (0.1, "ten times too large")), (4e4, 4e5),
@@ -175,6 +175,11 @@ BOUNDS = {
         ((1e3, "given in t, or its thousands mark read as a decimal point"), (1e-3, "given in g")),
         (500.0, 1.2e5),
     ),
+    "car_load": Bound(
+        "weight of a car over its axles", 5e3, 1e6, "N",
+        "a light trolley to axles of 40 t; 1e6 where one wheel stands for a car",
+        ((1e3, "masses given in t"), (1e-3, "masses given in g")), (2e4, 4e5),
+    ),
     "vehicle_frequency": Bound(
         "lowest frequency of a vehicle", 0.1, np.inf, "Hz", "cars sway at 0.4 Hz and more"
     ),
@@ -188,24 +193,24 @@ BOUNDS = {
     ),
     "speed": Bound(
         "speed of more than one axle", 0.0, 117.0, "m/s",
-        "1.2 times 350 km/h, the fastest lines (EN 1991-2, 6.4.6.2)",
+        "1.2 times 350 km/h, the fastest lines (EN 1991-2, 6.4.6)",
     ),
     "live_sag": Bound(
         "static displacement under the train over the longest span", 0.0, 0.01, "",
         "EN 1990, A2.4.4: 1/600 under heavier loads",
     ),
     "amplitude": Bound(
-        "amplitude of a wave", 0.0, 0.1, "m", "EN 13848-5: 0.03 m is mended at once",
+        "amplitude of a wave", 0.0, 0.1, "m", "0.03 m closes a line; more only in long waves",
         _IN_M, (2e-5, 0.05),
     ),
     "wavelength": Bound(
-        "wavelength", 0.02, 1000.0, "m", "corrugation of 0.03 m to waves of 200 m (EN 13848-1)",
+        "wavelength", 0.02, 1000.0, "m", "corrugation of 0.03 m to waves of 150 m (EN 13848)",
         (*_IN_M, (1e3, "given in km")), (0.02, 200.0),
     ),
     "slope": Bound("slope of the track", 0.0, 0.1, "", "dipped joints 0.02, corrugation 0.01"),
     "phase": Bound("phase of a wave", 0.0, 2 * np.pi + 1e-6, "rad", "one turn"),
     "notch_depth": Bound(
-        "depth of a notch", 0.0, 0.01, "m", "wheels with 1 mm are withdrawn (EN 15313)",
+        "depth of a notch", 0.0, 0.01, "m", "flat spots of 1 mm are bad, 3 mm stop a train",
         _IN_M, (1e-5, 0.005),
     ),
     "circumference": Bound(

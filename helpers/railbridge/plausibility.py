@@ -392,15 +392,14 @@ def _of_vehicle(vehicle: Vehicle) -> list[InputWarning]:
     """Return the first doubt about a vehicle's masses, suspension and places."""
     x = np.sort([axle.x for axle in vehicle.axles])
     base, gaps = float(x[-1] - x[0]), np.diff(x)
-    loads = [sum(vehicle.contacts[w].static_load for w in axle.wheels) for axle in vehicle.axles]
-    load = worst("axle_load", loads)
+    load = sum(wheel.static_load for wheel in vehicle.contacts) / len(x)
     for body in vehicle.bodies:
         for wrong in _of_body(body, load):
             return [
                 InputWarning(wrong.field, f"({vehicle.name}): mass of {body.name} {wrong.text}")
             ]
     checks = [
-        ("axle load", "axle_load", load),
+        ("weight over axles", "car_load", load or None),  # none without vertical freedoms
         ("smallest axle distance", "axle_gap", float(gaps.min()) if len(gaps) else None),
         ("largest axle distance", "axle_reach", float(gaps.max()) if len(gaps) else None),
         ("distance of wheels", "half_gauge", max(abs(wheel.y) for wheel in vehicle.contacts)),
@@ -420,8 +419,8 @@ def _of_vehicle(vehicle: Vehicle) -> list[InputWarning]:
 
 def _of_body(body: Body, axle_load: float) -> list[InputWarning]:
     """Doubt a body's mass: by itself, or where the axles carry next to nothing (N)."""
-    if axle_load < BOUNDS["axle_load"].low and 20.0 <= body.mass < 100.0:
-        text = f"= {body.mass:g} kg, an axle carries {axle_load:.3g} N: "
+    if 0.0 < axle_load < BOUNDS["axle_load"].low and 20.0 <= body.mass < 100.0:
+        text = f"= {body.mass:g} kg, axles carry {axle_load:.3g} N: "
         return [InputWarning("train.vehicle", text + BOUNDS["body_mass"].slip(body.mass))]
     return doubt("body_mass", "train.vehicle", body.mass)
 

@@ -8,7 +8,6 @@ key, as in ``run.speed``.
 from __future__ import annotations
 
 import copy
-import warnings
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import InitVar, dataclass, field, fields
@@ -20,9 +19,9 @@ from typing import Any
 import numpy as np
 
 from .. import errors, exchange
-from ..crossing import NotConvergedError, compute
+from ..crossing import NotConvergedError, compute, warn_of
 from ..decks import Deck
-from ..errors import InputError, InputWarning, Remark, ResultWarning, within
+from ..errors import InputError, Remark, within
 from ..notices import remarks
 from ..plausibility import doubts
 from ..results import Crossing
@@ -115,10 +114,12 @@ class Case:
 
     def run(self, progress: Callable[[str], None] | None = None) -> Crossing:
         """Compute the crossing, and warn of what is doubtful about it; see `cross`."""
-        run = self.compute(progress)
-        for remark in self.remarks(run):
-            if isinstance(remark, (InputWarning, ResultWarning)):
-                warnings.warn(remark, stacklevel=2)
+        try:
+            run = self.compute(progress)
+        except NotConvergedError as error:
+            warn_of(self.remarks(error.run))
+            raise
+        warn_of(self.remarks(run))
         return run
 
     def compute(self, progress: Callable[[str], None] | None = None) -> Crossing:

@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic_core import PydanticUndefined
 
+from .. import bounds
 from . import tables
 from .tabletypes import Table
 
@@ -59,11 +60,13 @@ _MARKED = re.compile(r"(<!-- table: ([\w. ]+) -->\n)(.*?)(<!-- end -->)", re.DOT
 def with_tables(page: str) -> str:
     """Return a page with its marked tables written anew.
 
-    A table stands between ``<!-- table: NAME -->`` and ``<!-- end -->``; NAME is one of `TABLES`.
+    A table stands between ``<!-- table: NAME -->`` and ``<!-- end -->``; NAME is one of `TABLES`,
+    or ``doubts`` for what is doubted.
     """
 
     def written(found: re.Match) -> str:
-        return f"{found[1]}{chr(10).join(rows(tables.TABLES[found[2]]))}\n{found[4]}"
+        lines = bounds.table() if found[2] == "doubts" else rows(tables.TABLES[found[2]])
+        return f"{found[1]}{chr(10).join(lines)}\n{found[4]}"
 
     return _MARKED.sub(written, page)
 
