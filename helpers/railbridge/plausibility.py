@@ -227,7 +227,7 @@ def _frequency(deck: Deck, signs: _Signs) -> list[InputWarning]:
     fits = _fitting(first, span)
     if mass and mass < 1e3 and off > 0.0 and fits(np.sqrt(G / 1e3)):
         return [InputWarning(_mass(deck), f"= {mass:g} kg/m {text}a weight in kN/m?")]
-    slips = _modal_slips(first, fits) if deck.recovery.lacks else _beam_slips(fits)
+    slips = _beam_slips(fits) if mass else _modal_slips(first, fits)
     likely = [words for fit, words in slips if fit]
     why = likely[0] if likely else "are stiffness, mass and lengths in SI units"
     return [InputWarning(_stiffness(deck), f"{text}{why}?")]
