@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import inspect
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import fields
 from typing import get_type_hints
 
 from .coupling import iterate, prepare
 from .decks import Deck
 from .direct import solve_directly
-from .errors import InputWarning, ResultWarning
+from .errors import InputWarning, Remark, ResultWarning
 from .notices import remarks
 from .results import Crossing
 from .settings import Options, Settings, check
 from .tracks import Track
 from .trains import AnyTrain
 
-__all__ = ["NotConvergedError", "compute", "cross"]
+__all__ = ["NotConvergedError", "compute", "cross", "warn_of"]
 
 
 class NotConvergedError(RuntimeError):
@@ -115,11 +115,20 @@ def cross(
     """
     track = Track() if track is None else track
     settings = check(train, deck, track, **options)
-    run = compute(train, deck, track, settings, progress)
-    for remark in remarks(run):
-        if isinstance(remark, (InputWarning, ResultWarning)):
-            warnings.warn(remark, stacklevel=2)
+    try:
+        run = compute(train, deck, track, settings, progress)
+    except NotConvergedError as error:
+        warn_of(remarks(error.run))  # a slip may be why
+        raise
+    warn_of(remarks(run))
     return run
+
+
+def warn_of(found: Iterable[Remark]) -> None:
+    """Warn of what is doubtful, in the name of who called the caller."""
+    for remark in found:
+        if isinstance(remark, (InputWarning, ResultWarning)):
+            warnings.warn(remark, stacklevel=3)
 
 
 def compute(

@@ -444,6 +444,57 @@ def test_a_warning_is_one_line(here, capsys):
     assert err[0].startswith("railbridge: warning: run.lead_in")
 
 
+SOFT = "deck.bending_stiffness_vertical gives a first vertical frequency of 0.273 Hz, bridges of 12"
+
+
+def test_a_doubt_is_one_warning_before_it_is_computed_and_stands_in_the_summary(here, capsys):
+    changed("5e9", "5e6")
+    code, _, err = command(capsys, "run", "case.toml", "--out", "r", "-q")
+    assert (code, len(err)) == (0, 1)
+    assert err[0].startswith(f"railbridge: warning: {SOFT}") and "given in kN m2" in err[0]
+    remarks = json.loads(Path("r/summary.json").read_text(encoding="utf-8"))["remarks"]
+    assert f"railbridge: warning: {remarks[0]}" == err[0]
+    both = ["--set", "run.lead_in=5.0"]
+    code, _, err = command(capsys, "run", "case.toml", "--out", "r", "-q", *both)
+    assert [line.split()[2] for line in err] == ["deck.bending_stiffness_vertical", "run.lead_in"]
+
+
+def test_a_doubt_is_said_where_nothing_converges(here, capsys):
+    changed("5e9", "5e6")
+    code, _, err = command(
+        capsys, "run", "case.toml", "--out", "r", "--set", "run.max_iterations=1"
+    )
+    assert code == 3
+    assert err[0].startswith(f"railbridge: warning: {SOFT}") and "not converged" in err[-1]
+    with pytest.warns(rb.errors.InputWarning, match="kN m2"), pytest.raises(rb.NotConvergedError):
+        rb.case("case.toml", {"run.max_iterations": 1}).run()
+
+
+def test_check_says_doubts_too(here, capsys):
+    changed("5e9", "5e6")
+    code, out, err = command(capsys, "check", "case.toml")
+    assert (code, len(out), len(err)) == (0, 1, 1)
+    assert "can be run" in out[0] and err[0].startswith(f"railbridge: warning: {SOFT}")
+
+
+def test_strict_refuses_doubts_and_computes_nothing(here, capsys, monkeypatch):
+    changed("5e9", "5e6")
+    monkeypatch.setattr(rb.Case, "compute", lambda *_: pytest.fail("computed"))
+    for arguments in (("run", "case.toml", "--out", "deep/r"), ("check", "case.toml")):
+        line = refused(capsys, *arguments, "--strict")
+        assert line.startswith(f"railbridge: {SOFT}")
+    assert os.listdir() == ["case.toml"]
+    two = ["--set", "run.speed=118"]
+    code, out, err = command(capsys, "check", "case.toml", "--strict", *two)
+    assert (code, out, len(err)) == (2, [], 2) and "424.8 km/h" in err[1]
+
+
+def test_strict_lets_pass_what_is_not_doubted(here, capsys):
+    code, out, err = command(capsys, "check", "case.toml", "--strict")
+    assert (code, len(out), err) == (0, 1, [])
+    assert command(capsys, "run", "case.toml", "--out", "r", "-q", "--strict") == (0, [], [])
+
+
 def test_files_of_a_case_are_found_beside_it(here, capsys, monkeypatch):
     vehicles = shelf.data_file("vehicles", "xia2000_planar").read_text(encoding="utf-8")
     deck = (

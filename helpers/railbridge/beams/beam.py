@@ -89,7 +89,10 @@ class Beam(BeamProperties):  # noqa: D101
             track_height=track_height,
             mass_per_metre=self.mass,
             internal_damping=0.0 if np.isscalar(damping) else float(damping[1]),
-            remarks=() if modes is None else tuple(self._left_out(recovery, frequencies)),
+            remarks=(
+                *self.remarks,
+                *([] if modes is None else self._left_out(recovery, frequencies)),
+            ),
         )
 
     def _chosen(self) -> tuple[BeamModes, list[int]]:

@@ -11,7 +11,9 @@ from typing import Annotated
 import numpy as np
 
 from .. import errors
-from ..errors import InputError, Range, brief, check_fields, within
+from ..bounds import BOUNDS, doubt, material, soft_bearing
+from ..errors import InputError, InputWarning, Range, brief, check_fields, within
+from ..units import G
 from .bearings import FARTHEST, Bearing, free_motions, on_deck
 from .elements import FIELDS
 
@@ -90,6 +92,24 @@ class Section:
 
     def __post_init__(self) -> None:
         check_fields(self)
+
+    @property
+    def remarks(self) -> tuple[InputWarning, ...]:
+        """What is unlikely to be meant about the section, for `Deck.remarks`."""
+        moments = self.second_moment_vertical, self.second_moment_lateral
+        found = material(self.youngs_modulus, self.density)
+        found += doubt("area", "area", self.area)
+        found += doubt("second_moment", "second_moment_vertical", moments[0])
+        found += doubt("second_moment", "second_moment_lateral", moments[1])
+        if not found and self.torsion_constant > sum(moments):
+            text = f"= {self.torsion_constant:g} m4 is more than I_y + I_z, which no section has: "
+            found.append(InputWarning("torsion_constant", text + "given in another unit?"))
+        for direction in ("vertical", "lateral"):
+            shear = getattr(self, f"shear_area_{direction}")
+            if not found and shear is not None and shear > self.area:
+                text = f"= {shear:g} m2 is more than the area, {self.area:g} m2: given in cm2?"
+                found.append(InputWarning(f"shear_area_{direction}", text))
+        return tuple(found)
 
     def of_beam(self, rotary_inertia: bool = False) -> dict[str, float]:
         """Return what a `Beam` needs to know: mass, stiffnesses and inertias, SI, by its names.
@@ -266,6 +286,53 @@ class BeamProperties:
     @cached_property
     def _span_ends(self) -> np.ndarray:
         return span_ends(self.spans)
+
+    @property
+    def remarks(self) -> tuple[InputWarning, ...]:
+        """What is unlikely to be meant, that a deck made of it does not show; `Deck.remarks`."""
+        found = doubt("mass", "mass", self.mass)
+        if found:  # the radii below follow from it
+            return tuple(found)
+        for name, bound in (
+            ("polar_inertia", "polar_radius"),
+            ("rotary_inertia_vertical", "bending_radius"),
+            ("rotary_inertia_lateral", "polar_radius"),
+        ):
+            inertia = getattr(self, name)
+            if inertia is not None:
+                found += self._odd_radius(name, bound, inertia / self.mass, "t m")
+        if self.axial_stiffness is not None:
+            square = self.bending_stiffness_vertical / self.axial_stiffness
+            found += self._odd_radius("axial_stiffness", "bending_radius", square, "kN")
+        for name in ("vertical", "lateral"):
+            found += self._odd_shear(name)
+        found += doubt("height", "centroid_height", self.centroid_height)
+        held = sum("z" in b.restrained for b in self.bearings)
+        for i, bearing in enumerate(self.bearings, start=1):
+            for direction, spring in bearing.stiffness.items():
+                weight = self.mass * self.length * G / max(held, 1)
+                field = f"bearings[{i}].stiffness.{direction}"
+                found += soft_bearing(field, direction, spring, weight)
+            found += doubt("height", f"bearings[{i}].z", bearing.z)
+        return tuple(found)
+
+    def _odd_radius(self, name: str, bound: str, square: float, unit: str) -> list[InputWarning]:
+        """Doubt a value that gives a section an odd radius of gyration, squared (m2)."""
+        radius, usual = float(np.sqrt(square)), BOUNDS[bound]
+        # A section is not a third of its span deep.
+        most = min(usual.high, max(self.spans) / 6) if name == "axial_stiffness" else usual.high
+        if usual.low <= radius <= most:
+            return []
+        text = f"= {getattr(self, name):g} gives a radius of gyration of {radius:.3g} m, usual is "
+        return [InputWarning(name, f"{text}{usual.range}: given in {unit}?")]
+
+    def _odd_shear(self, name: str) -> list[InputWarning]:
+        share = self.shear_flexibility(name) / max(self.spans) ** 2
+        if share <= BOUNDS["shear_share"].high:
+            return []
+        field = f"shear_stiffness_{name}"
+        text = f"= {getattr(self, field):g} N makes the deck give way in shear {share * 10:.2g} "
+        return [InputWarning(field, text + "times as much as in bending: given in kN?")]
 
     def _placed_bearings(self) -> tuple[Bearing, ...]:
         """Return the given or usual bearings, one under each span where simple spans meet."""

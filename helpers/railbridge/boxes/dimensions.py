@@ -15,7 +15,9 @@ import numpy as np
 
 from .. import errors
 from ..beams import checked_spans, on_deck, span_ends
-from ..errors import InputError, Range, brief, check_fields, within
+from ..bounds import doubt, material, soft_bearing
+from ..errors import InputError, InputWarning, Range, brief, check_fields, within
+from ..units import G
 from .pads import DIRECTIONS, STIFFEST
 from .section import refuse_crossing
 
@@ -306,6 +308,24 @@ class BoxDimensions:
         if self.root_thickness > self.slab_thickness and knee < top - 1e-6:
             corners.append((knee, self.depth - self.slab_thickness))
         return np.array(corners + [(-y, z) for y, z in reversed(corners)])
+
+    # ---- doubts
+
+    @property
+    def remarks(self) -> tuple[InputWarning, ...]:
+        """What is unlikely to be meant, that a deck made of it does not show; `Deck.remarks`."""
+        found = material(self.youngs_modulus, self.density)
+        for name in ("track_mass", "edge_mass"):
+            carried = getattr(self, name)
+            if carried:
+                found += doubt("track_mass", name, carried)
+        held = sum(len(p.sides) for p in self.bearings if "z" in (*p.fixed, *p.stiffness))
+        for i, line in enumerate(self.bearings, start=1):
+            for direction, spring in line.stiffness.items():
+                weight = self.mass_per_metre * self.length * G / max(held, 1)
+                field = f"bearings[{i}].stiffness.{direction}"
+                found += soft_bearing(field, direction, spring, weight)
+        return tuple(found)
 
     # ---- mass
 

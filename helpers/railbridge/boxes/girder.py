@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 from ..beams import Beam, Bearing
 from ..decks import Deck, checked_damping, damping_ratios
-from ..errors import brief
+from ..errors import ResultWarning, brief
 from .boxshell import BoxMesh, shell_of
 from .dimensions import BoxDimensions
 from .section import SectionProperties, section_properties
@@ -116,9 +116,11 @@ class Box(BoxDimensions):  # noqa: D101
         See `beam` for the switches.
         """
         height = self.depth - self.section.shear_centre[1]
-        return self.beam(**switches).deck(
+        made = self.beam(**switches).deck(
             modes, damping, dict(self.tracks), self.slab_width, height
         )
+        left_out = [remark for remark in made.remarks if isinstance(remark, ResultWarning)]
+        return replace(made, remarks=(*self.remarks, *left_out))
 
     # ---- shell
 
@@ -157,6 +159,7 @@ class Box(BoxDimensions):  # noqa: D101
             width=self.slab_width,
             track_height=self.head_thickness / 2,
             mass_per_metre=self.mass_per_metre,
+            remarks=self.remarks,
         )
 
     def convergence(self, factors: tuple[float, ...] = (0.5, 1.0, 1.5, 2.0), modes: int = 15):

@@ -1,8 +1,9 @@
 """The command ``railbridge``: case files in, results out.
 
 Exit codes: 0 all is well; 1 the computer failed (disk, memory); 2 the case file or a path is wrong,
-with one line that names the key; 3 the iteration did not converge or settle, results written all
-the same; 130 interrupted (128 and its number for other signals), nothing half-written.
+with one line that names the key, or a value is doubted and ``--strict`` given; 3 the iteration did
+not converge or settle, results written all the same; 130 interrupted (128 and its number for other
+signals), nothing half-written.
 """
 
 from __future__ import annotations
@@ -15,14 +16,14 @@ import sys
 import time
 import tomllib
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TextIO
 
 import numpy as np
 
 from ..crossing import NotConvergedError
-from ..errors import InputError, printable
+from ..errors import InputError, InputWarning, Remark, ResultWarning, printable
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
@@ -63,7 +64,7 @@ results (in the folder of --out; files of these names in it are replaced):
   The first column of every CSV file is t, in s; the names of the others end with their unit.
 
 exit codes:
-  0 done    1 out of memory or disk    2 bad case file or path
+  0 done    1 out of memory or disk    2 bad case file or path, or doubts with --strict
   3 not converged, or not settled by run.iterations (results are written)
   130 interrupted    143 stopped
 """
@@ -169,6 +170,11 @@ def _parser() -> argparse.ArgumentParser:
         default=[],
         help="change a key, as in run.speed=30; may be repeated",
     )
+    changes.add_argument(
+        "--strict",
+        action="store_true",
+        help="refuse what is unlikely to be meant (exit code 2), instead of a warning",
+    )
     run = add(
         "run",
         _run,
@@ -237,15 +243,19 @@ def _case(given: argparse.Namespace) -> Case:
 
 def _run(given: argparse.Namespace) -> int:
     loaded = _case(given)
+    doubts = _said_doubts(loaded, given.strict)
+    if doubts and given.strict:
+        return 2
     progress = _Progress(given.quiet)
     with staging.files(given.out, "--out", FILES) as folder:
         code = 0
         try:
-            run = loaded.run(progress)
+            run = loaded.compute(progress)
         except NotConvergedError as error:
             run, code, message = error.run, 3, str(error)
         _write(folder, loaded, run, progress, not given.no_histories)
     progress.end()
+    _warn(remark for remark in loaded.remarks(run) if str(remark) not in doubts)
     if code:
         _say(f"{message} What there is was written to {given.out}.")
     elif unsettled(run):
@@ -255,6 +265,24 @@ def _run(given: argparse.Namespace) -> int:
     elif not given.quiet:
         _say(f"{_headline(loaded, run)}; written to {given.out}")
     return code
+
+
+def _said_doubts(loaded: Case, strict: bool) -> set[str]:
+    """Print a line for whatever is unlikely to be meant, and return these lines."""
+    doubts = [remark for remark in loaded.doubts if isinstance(remark, InputWarning)]
+    if strict:
+        for doubt in doubts:
+            _say(str(doubt))
+    else:
+        _warn(doubts)
+    return {str(doubt) for doubt in doubts}
+
+
+def _warn(remarks: Iterable[Remark]) -> None:
+    """Print a line for every remark that is also warned of."""
+    for remark in remarks:
+        if isinstance(remark, (InputWarning, ResultWarning)):
+            _say(f"warning: {remark}")
 
 
 def _headline(loaded: Case, run: Crossing) -> str:
@@ -296,6 +324,8 @@ def _write(
 
 def _check(given: argparse.Namespace) -> int:
     loaded = _case(given)
+    if _said_doubts(loaded, given.strict) and given.strict:
+        return 2
     needed = bytes_needed(loaded.train, loaded.deck, loaded.settings, len(loaded.points))
     s = loaded.settings
     seconds = (loaded.deck.length + loaded.train.length) / s.speed + s.tail

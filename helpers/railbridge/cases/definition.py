@@ -8,9 +8,10 @@ key, as in ``run.speed``.
 from __future__ import annotations
 
 import copy
-import warnings
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import InitVar, dataclass, field, fields
+from functools import cached_property
 from pathlib import Path
 from pprint import pformat
 from typing import Any
@@ -18,9 +19,9 @@ from typing import Any
 import numpy as np
 
 from .. import errors, exchange
-from ..crossing import NotConvergedError, compute
+from ..crossing import NotConvergedError, compute, warn_of
 from ..decks import Deck
-from ..errors import InputError, InputWarning, Remark, ResultWarning, within
+from ..errors import InputError, Remark, within
 from ..notices import remarks
 from ..plausibility import doubts
 from ..results import Crossing
@@ -118,10 +119,12 @@ class Case:
 
     def run(self, progress: Callable[[str], None] | None = None) -> Crossing:
         """Compute the crossing, and warn of what is doubtful about it; see `cross`."""
-        run = self.compute(progress)
-        for remark in self.remarks(run):
-            if isinstance(remark, (InputWarning, ResultWarning)):
-                warnings.warn(remark, stacklevel=2)
+        try:
+            run = self.compute(progress)
+        except NotConvergedError as error:
+            warn_of(self.remarks(error.run))
+            raise
+        warn_of(self.remarks(run))
         return run
 
     def compute(self, progress: Callable[[str], None] | None = None) -> Crossing:
@@ -136,11 +139,28 @@ class Case:
         """What is unlikely to be meant, in the words of the case; known before anything is run."""
         found = [remark.moved("deck") for remark in self.deck.remarks]
         found += doubts(self.train, self.deck, self.track, self.settings)
-        return [remark.moved(names=IN_A_CASE) for remark in found]
+        return [self._in_its_words(remark) for remark in found]
 
     def remarks(self, run: Crossing) -> list[Remark]:
         """Return what must be known before a run of this case is read, in the case's words."""
-        return [remark.moved(names=IN_A_CASE) for remark in remarks(run)]
+        return [self._in_its_words(remark) for remark in remarks(run)]
+
+    @cached_property
+    def _words(self) -> dict[str, str]:
+        """What this case calls a deck's and a train's fields, by their names in Python."""
+        words = {"train.notches": "train.notch"}
+        if "vehicle" not in self.content["train"]:
+            words["train.vehicle"] = "train.cars"
+        with suppress(InputError):  # a deck file that has gone since
+            words |= objects.words_of_deck(self.content["deck"])
+        return words
+
+    def _in_its_words(self, remark: Remark) -> Remark:
+        """Return a remark whose field is a key of this case or of the files it names."""
+        for name, key in self._words.items():
+            if remark.field == name or remark.field.startswith((f"{name}.", f"{name}[")):
+                return type(remark)(key + remark.field[len(name) :], remark.text)
+        return remark.moved(names=IN_A_CASE)
 
     def summary(self, run: Crossing | None = None) -> dict[str, Any]:
         """Return the numbers engineers look at first; see `summarize`.

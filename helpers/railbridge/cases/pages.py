@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic_core import PydanticUndefined
 
+from .. import bounds
 from ..units import UNITS
 from . import tables
 from .tabletypes import Table
@@ -70,11 +71,13 @@ def with_tables(page: str) -> str:
     """Return a page with its marked tables written anew.
 
     A table stands between ``<!-- table: NAME -->`` and ``<!-- end -->``; NAME is one of `TABLES`,
-    or ``units``.
+    ``units``, or ``doubts`` for what is doubted.
     """
+    special = {"units": unit_rows, "doubts": bounds.table}
 
     def written(found: re.Match) -> str:
-        lines = unit_rows() if found[2] == "units" else rows(tables.TABLES[found[2]])
+        name = found[2]
+        lines = special[name]() if name in special else rows(tables.TABLES[name])
         return f"{found[1]}{chr(10).join(lines)}\n{found[4]}"
 
     return _MARKED.sub(written, page)
