@@ -1,9 +1,9 @@
 """A seeded campaign of random crossings against a simulator of our own, which reduces nothing.
 
-Cars around the paper's, one or two spans, rigid and elastic bearings beside and below the axis, both
-tracks, rails above the axis, waves with phases, notches, 10 to 90 m/s, both kinds of damping. A few
-cases run always; `RAILBRIDGE_CAMPAIGN=100 pytest -s tests/test_campaign.py` runs a hundred and
-prints what was worst.
+Cars around the paper's, one or two spans, rigid and elastic bearings beside and below the axis,
+both tracks, rails above the axis, waves with phases, notches, 10 to 90 m/s, both kinds of damping.
+A few cases run always; `RAILBRIDGE_CAMPAIGN=100 pytest -s tests/test_campaign.py` runs a hundred
+and prints what was worst.
 
 How near is near enough is not chosen but measured. Both programs run twice, the second time with
 half the step, the product with twice the modes, the simulator with elements of half the size. Their
@@ -137,7 +137,9 @@ def drawn_waves(rng):
         for _ in range(int(rng.integers(0, 3))):
             length = rng.uniform(5.0, 25.0)
             wave = most * rng.uniform(0.1, 1.0) * length / 25.0, length, rng.uniform(0, 2 * np.pi)
-            sides = [("left", "right"), ("left",), ("right",)][int(rng.choice(3, p=[0.6, 0.2, 0.2]))]
+            sides = [("left", "right"), ("left",), ("right",)][
+                int(rng.choice(3, p=[0.6, 0.2, 0.2]))
+            ]
             for side in sides:
                 result.setdefault((direction, side), []).append(wave)
     return result

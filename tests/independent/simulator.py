@@ -3,8 +3,8 @@
 Everything is integrated together, at every stage of every step, by a method for stiff equations.
 It shares nothing with the package but plain numbers. From the paper's Table 1 and Figure 1: a car
 body and two bogies, each with y, z, roll, pitch, yaw; two secondary springs a bogie, two primary
-springs an axle, each lateral and vertical with its damper. Wheels without mass stay on the rails, so
-the force of a primary spring is the contact force:
+springs an axle, each lateral and vertical with its damper. Wheels without mass stay on the rails,
+so the force of a primary spring is the contact force, with e the motion of its upper end:
 
     F = k (e - s) + c (e' - s') - W,    s = w + y theta + r  or  v - h theta + r,
     s' = (d/dt + V d/dx) of the deck's part + V r'.
@@ -395,10 +395,7 @@ class Simulator:
                     rate = rate + h * weight * found[i][1]
                 states.append((place + g * rate, rate))
             last = self._stage(t + when * h, g, systems, middle, *states)
-            found = []
-            for (place, rate), extra in zip(states, last[:2], strict=True):
-                found.append((rate + g * extra, extra))
-            rates.append(found)
+            rates.append([(r + g * a, a) for (_, r), a in zip(states, last[:2], strict=True)])
         ends = []
         for (place, rate), extra in zip(states, last[:2], strict=True):
             ends += [place + g**2 * extra, rate + g * extra]

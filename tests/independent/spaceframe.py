@@ -1,10 +1,11 @@
 """A deck as a frame in space, nothing reduced: elements of twelve freedoms, consistent mass.
 
 Freedoms of a node, at the deck axis: u, v, w, theta_x, theta_y, theta_z, with theta_z = v' and
-theta_y = -w'. Twist has freedoms inside the element, too: under a moving torque its bend travels, and
-a straight line between nodes would lose what the deck's turning inertia does there. A bearing at (x, y, z) is tied to the node at x by a rigid arm; what it holds rigidly
-is a constraint, what it holds by a spring is added to the stiffness. All of it is written from the
-book (Przemieniecki 1968, chapters 5 and 11) and takes plain numbers.
+theta_y = -w'. Twist has freedoms inside the element, too: its bend travels with a moving torque,
+and a straight line between nodes would lose what the turning mass does there, (V/c)^2 of the
+torque however short the elements. A bearing at (x, y, z) is tied to the node at x by a rigid arm;
+what it holds rigidly is a constraint, what it holds by a spring is added to the stiffness. All of
+it is written from the book (Przemieniecki 1968, chapters 5 and 11) and takes plain numbers.
 
 Two ways of damping. Rayleigh: C = alpha M + beta K, where beta K is viscosity inside the deck and
 its elastic bearings, and alpha M a drag from outside. Modal: one ratio for every mode of this
@@ -170,7 +171,9 @@ class SpaceFrame:
         inner = np.arange(self.size - 6 * self.nodes)
         parts.append((6 * self.nodes + inner, count + inner, np.ones(len(inner))))
         rows, columns, values = (np.concatenate(part) for part in zip(*parts, strict=True))
-        self.free = coo_array((values, (rows, columns)), shape=(self.size, count + len(inner))).tocsr()
+        self.free = coo_array(
+            (values, (rows, columns)), shape=(self.size, count + len(inner))
+        ).tocsr()
         self.stiffness = (self.free.T @ stiffness.tocsr() @ self.free).tocsr()
         self.mass = (self.free.T @ self.inertia @ self.free).tocsr()
 
