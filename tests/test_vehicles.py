@@ -74,6 +74,20 @@ def test_weight_and_static_loads():
     assert heavy.weight == pytest.approx(CAR.weight + 4 * 9810.0)
 
 
+def test_where_the_inertia_of_wheelsets_would_matter():
+    """What the docstring of `static_wheelset_mass` says, by Newton: a wheel that follows the rail's
+    r sin(wt) presses on it by m w^2 r, as the whole car does far below its bounce."""
+
+    def pressed(frequency, wheelsets=0.0):
+        omega = 2 * np.pi * frequency
+        return CAR.transfer(frequency)[:, 1, :, 1].sum() + wheelsets * omega**2
+
+    assert pressed(0.05) == pytest.approx(CAR.weight / 9.81 * (2 * np.pi * 0.05) ** 2, rel=2e-3)
+    for frequency, percent in (1.389, -0.3), (2.0, -14), (4.2, 64):
+        change = 100 * abs(pressed(frequency, 4 * 1800.0)) / abs(pressed(frequency)) - 100
+        assert change == pytest.approx(percent, abs=0.5 if abs(percent) > 1 else 0.1), frequency
+
+
 def test_wheels_are_ordered_front_to_back_left_before_right():
     places = [(c.x, c.y) for c in CAR.contacts]
     assert [x for x, _ in places] == pytest.approx(np.repeat([9.05, 6.55, -6.55, -9.05], 2))

@@ -198,9 +198,10 @@ class Vehicle:
         m over couplers; the default distance between cars. May be left out where trains are given
         their car spacing.
     static_wheelset_mass : float
-        kg of one wheelset, carried straight by the rail. Only its weight counts. Wrong above the
-        frequency where the wheelset's inertia force reaches the contact force, about
-        sqrt(k/m)/(2 pi) of the primary suspension.
+        kg of one wheelset, carried straight by the rail. Only its weight counts, not its inertia.
+        That matters once waves shake the car above its bounce, where the springs press little:
+        1800 kg under `xia2000`, wheels in phase, would change the force by -0.3 % at 1.389 Hz, by
+        -14 % at 2 Hz and by +64 % at 4.2 Hz.
 
     Raises
     ------

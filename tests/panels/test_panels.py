@@ -393,7 +393,16 @@ def test_the_paper_case_gives_the_known_numbers(all_panels):
         in all_panels["irregularities"].summary
     )
     assert "3.307 Hz, damping 3.00 %" in all_panels["deck_modes"].summary
-    assert "damping would be 6.15 %" in all_panels["deck_modes"].summary
+    assert "forcing 1.389 Hz." in all_panels["deck_modes"].summary
+
+
+def test_only_the_mode_is_marked_on_the_curve_of_damping(all_panels):
+    """A ratio belongs to a mode that swings; a forcing has none."""
+    panel = all_panels["deck_modes"]
+    assert "damping would be" not in panel.summary
+    (axes,) = [ax for ax in panel.figure.axes if ax.get_ylabel().startswith("damping")]
+    assert not any("forcing" in text.get_text() for text in axes.texts)
+    assert any("the mode" in text.get_text() for text in axes.texts)
 
 
 def test_a_value_seen_before_is_not_computed_again():

@@ -59,8 +59,8 @@ PAGES = {
     "00": Page((GOALS, EXPLORE, FOUND, REFERENCES), (200, 1200), (5, 80), (), ("You need", "Time")),
     # Two hierarchies of deck, and how the second was found.
     "04": Page(words=(500, 2700), code_lines=(40, 220)),
-    "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3000), (20, 210), (), ("You need", "Time")),
-    "09": Page((GOALS, SYMBOLS, CHECK, EXERCISES, FOUND, REFERENCES), (500, 3000), (20, 270)),
+    "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3000), (20, 220), (), ("You need", "Time")),
+    "09": Page((GOALS, SYMBOLS, CHECK, EXERCISES, FOUND, REFERENCES), (500, 3000), (20, 280)),
     # The other program that the page needs is written out on it.
     "12": Page(code_lines=(40, 170)),
 }
