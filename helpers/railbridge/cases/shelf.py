@@ -103,9 +103,9 @@ def read_toml(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (ValueError, RecursionError, OSError) as error:
-        raise InputError(
-            "", None, f"is not a valid TOML file ({error})", source=path.name
-        ) from None
+        reason = getattr(error, "strerror", None) or error
+        allowed = f"is not a valid TOML file ({reason})"
+        raise InputError("", None, allowed, source=path.name) from None
 
 
 def read_parameters(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -150,5 +151,9 @@ def stamps(content: Mapping[str, Any]) -> list[int]:
     own = content.get("modes")
     own = own if isinstance(own, Mapping) else {}
     paths = [Path(own[k]) for k in _PATHS if isinstance(own.get(k), str)]
-    found = [path.stat() for path in paths if path.is_file()]
+    found = []
+    for path in paths:
+        # What is no file is said where it is opened.
+        with suppress(OSError, ValueError):
+            found.append(path.stat())
     return [n for s in found for n in (s.st_mtime_ns, s.st_size)]

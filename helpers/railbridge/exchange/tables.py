@@ -62,7 +62,7 @@ class Columns:
             values = np.array(cells, dtype=float)
         except ValueError:
             values = np.array([math.nan])
-        if self.comma or not np.isfinite(values).all():
+        if self.comma or not np.all(np.abs(values) <= 1e30):
             named = zip(self.lines, cells, strict=True)
             values = np.array([self.number(f"line {line}: {column}", c) for line, c in named])
         return values
@@ -133,7 +133,7 @@ def read_columns(
     except TypeError:
         raise InputError("path", path, "must be the path of a CSV file") from None
     except (OSError, ValueError) as error:
-        allowed = f"is not a readable CSV file ({error})"
+        allowed = f"is not a readable CSV file ({getattr(error, 'strerror', None) or error})"
         raise InputError("path", path.name, allowed, "Save it as UTF-8 text") from None
     with errors.within(source=path.name):
         separator = _separator(text, [*required, *optional])
