@@ -88,6 +88,21 @@ time_step = 2e-3
 interaction = "rigid"
 tail = 0.1
 """,
+    "inline.toml": """
+[deck]
+modes = { nodes = "nodes.csv", modes = "modes.csv", masses = "masses.csv", units = ["mm", "t"], \
+axes = ["x", "y", "z"], rail = { y = 0.0, z = 0.0, within = 0.01 }, axis = { y = 0.0, z = 0.0 }, \
+supports = [0.0, 36.0], count = 4, unusual = false }
+damping = { modal = 0.01 }
+track_height = 0.5
+[train]
+vehicle = "planar.toml"
+[run]
+speed = 60.0
+time_step = 2e-3
+interaction = "rigid"
+tail = 0.1
+""",
     "foreign.toml": """
 [deck]
 file = "deck.toml"

@@ -132,7 +132,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="KEY=VALUE",
         action="append",
         default=[],
-        help="change a key, as in run.speed=30; may be repeated",
+        help="change a key, as in run.speed=30; may be repeated; paths as in the file",
     )
     run = add(
         "run",

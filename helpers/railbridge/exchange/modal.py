@@ -188,6 +188,7 @@ def deck_from_modes(
     kept = np.flatnonzero(np.sqrt(size.sum(axis=1) / size.sum(axis=1).max()) > 1e-6)
     if count is not None:
         kept = kept[: errors.integer("count", count, least=1, most=len(kept))]
+    supports = _checked_supports(supports, line.length)
     frequencies = model.frequencies_hz[kept]
     _refuse_units(line, supports, frequencies, size[kept], unusual)
     if model.masses is None:
@@ -209,11 +210,20 @@ def deck_from_modes(
         damping_ratios=ratios,
         mode_names=_names(model, size, kept),
         shapes=PiecewiseCubic(functions.edges, functions.coefficients[:, :, kept]),
-        supports=tuple(float(x) for x in supports),
+        supports=supports,
         tracks=dict(tracks or {}),
         width=width,
         track_height=track_height,
     )
+
+
+def _checked_supports(supports: Sequence[float], length: float) -> tuple[float, ...]:
+    """Return the places of bearing lines, m, ascending; refuse two at one place."""
+    found = np.sort(errors.places("supports", supports, (0.0, length), slack=errors.ROUNDED))
+    if np.any(np.diff(found) < 1e-3 * length):
+        allowed = "two bearing lines stand at one place"
+        raise InputError("supports", found, allowed, "Give each line once, m from the first node")
+    return tuple(found.tolist())
 
 
 def _along(
@@ -337,7 +347,7 @@ def _refuse_units(
     94.76 L^-0.748 Hz (EN 1991-2, 6.4.4). A mass-normalised mode in which the deck moves as a whole
     has an integral of phi^2 of about 1 / mass per metre.
     """
-    span = float(np.max(np.diff(np.sort(supports)))) if len(supports) > 1 else line.length
+    span = float(np.max(np.diff(supports))) if len(supports) > 1 else line.length
     low, high = (80 / span if span <= 20 else 23.58 * span**-0.592), 94.76 * span**-0.748
     low, high = min(low, high), max(low, high)
     vertical = np.flatnonzero(np.argmax(size, axis=1) == 1)
