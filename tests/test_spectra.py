@@ -37,3 +37,20 @@ def test_scaling_and_shifting_a_record(scale, shift, seed):
     base = rb.amplitude_spectrum(signal, 0.01)
     other = rb.amplitude_spectrum(scale * signal + shift, 0.01)
     assert rb.deviation_percent(other, base) == pytest.approx(100 * (scale - 1), abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("signal", "step", "bins", "field"),
+    [
+        (np.ones(9), -0.01, 60, "time_step"), (np.ones(9), 0.0, 60, "time_step"),
+        (np.ones(9), np.nan, 60, "time_step"), (np.ones(9), "1", 60, "time_step"),
+        (np.ones(9), np.array([0.1]), 60, "time_step"), ([], 0.1, 60, "signal"),
+        ([1.0, np.nan], 0.1, 60, "signal[2]"), (5.0, 0.1, 60, "signal"), ("abc", 0.1, 60, "signal"),
+        (np.array(5.0), 0.1, 60, "signal"), (np.ones((2, 2)), 0.1, 60, "signal[1]"),
+        (np.ones(9), 0.1, 0, "bins"), (np.ones(9), 0.1, 2.5, "bins"),
+    ],
+)  # fmt: skip
+def test_what_has_no_spectrum_is_refused(signal, step, bins, field):
+    with pytest.raises(rb.InputError) as error:
+        rb.amplitude_spectrum(signal, step, bins)
+    assert error.value.field == field

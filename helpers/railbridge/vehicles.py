@@ -220,8 +220,11 @@ class Vehicle:
     labels: tuple[str, ...] = field(init=False, default=())
 
     def __post_init__(self) -> None:
+        errors.text("name", self.name)
         with within(source=f"vehicle {self.name}"):
             check_fields(self)
+            object.__setattr__(self, "bodies", errors.instances("bodies", self.bodies, Body))
+            object.__setattr__(self, "springs", errors.instances("springs", self.springs, Spring))
             _refuse_wrong_ends(self)
             labels = tuple(
                 f"{b.name} {f}" for b in self.bodies for f in FREEDOMS if f in b.freedoms
@@ -436,6 +439,10 @@ class Vehicle:
     def transfer(self, frequency_hz: float) -> np.ndarray:
         """Return the steady contact forces for unit harmonic support motion.
 
+        Parameters
+        ----------
+        frequency_hz : float
+
         Returns
         -------
         ndarray, shape (contacts, 2, contacts, 2), complex
@@ -443,7 +450,7 @@ class Vehicle:
             direction; lateral before vertical.
         """
         rows = self._contact_rows.reshape(-1, len(self.labels))
-        s = 2j * np.pi * frequency_hz
+        s = 2j * np.pi * errors.number("frequency_hz", frequency_hz, unit="Hz")
         dynamic = self.mass_matrix * s**2 + self.damping_matrix * s + self.stiffness_matrix
         impedance = (self.contact_stiffness + self.contact_damping * s).ravel()
         through = rows @ np.linalg.solve(dynamic, rows.T)

@@ -143,6 +143,7 @@ def test_histories_that_cannot_be_used_are_refused(ours, tmp_path):
         ),
         "must be finite": staggered.NodeMotion(good.time, good.y, good.z * np.nan, good.roll),
         "must have 25 nodes": staggered.NodeMotion(good.time, good.y, good.z[:20], good.roll),
+        "and less than 1e6 m": staggered.NodeMotion(good.time, good.y * 1e308, good.z, good.roll),
         "must ascend": staggered.NodeMotion(good.time[::-1], good.y, good.z, good.roll),
     }
     for message, motion in spoiled.items():
@@ -165,6 +166,7 @@ def test_histories_that_cannot_be_used_are_refused(ours, tmp_path):
             "column uz: is missing: the vertical displacement",
         ),
         (lambda lines: [lines[0], lines[1] + "x", *lines[2:]], "line 2: rx"),
+        (lambda lines: [lines[0], lines[1].rsplit(",", 1)[0] + ",1e308", *lines[2:]], "line 2: rx"),
     ]:
         write_motion(path, AXIS, instants, moved)
         path.write_text(

@@ -1,6 +1,7 @@
 """Every figure is drawn, says its units, changes no settings; no legend hides anything."""
 
 import inspect
+from dataclasses import replace
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -250,6 +251,29 @@ def test_other_shades_can_be_told_from_the_first():
             np.array_equal(np.argsort(first)[[0, -1]], np.argsort(other)[[0, -1]])
             or len(set(first)) == 1
         ), colour
+
+
+NAMES = ["$$", "$x^$", "a $\\frac$ b", "1 $", "\\$", "plain"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_names_from_files_are_drawn_as_they_are(name, run):
+    """A dollar sign begins no formula: `$x^$` is none, and stopped the picture."""
+    usual = rb.vehicle("sprung_mass")
+    body, spring = replace(usual.bodies[0], name=name), replace(usual.springs[0], from_=name)
+    car = rb.Vehicle(name, (body,), (spring,), 10.0)
+    deck = replace(run.deck, name=name, mode_names=(name,) * len(run.deck.mode_names))
+    box = rb.Box(name, (36.0,), 9.6, 0.25, 2.0, 0.35, 5.0, 0.2, 34e9, tracks={name: 2.4})
+    drawn = [
+        plots.vehicle(car)[0], plots.vehicle_mode(car, 1)[0], plots.deck_mode(deck, 1),
+        plots.deck_modes(deck)[0], plots.frequencies(car), plots.frequencies(deck),
+        plots.train_on_deck(run.train, deck), plots.box_section(box, box.section),
+    ]  # fmt: skip
+    for ax in drawn:
+        ax.figure.canvas.draw()
+        texts = [t.get_text() for t in ax.figure.findobj(mpl.text.Text)]
+        if name == "$$":
+            assert any(name.replace("$", r"\$") in text for text in texts)
 
 
 def test_public_functions_take_axes():
