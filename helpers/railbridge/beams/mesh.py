@@ -21,7 +21,9 @@ from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU
 
+from ..errors import InputError
 from ..guideways import PiecewiseCubic
+from ..settings import MEMORY_LIMIT
 from . import elements
 from .bearings import null_space
 from .eigen import count_below, factorised, lowest
@@ -42,6 +44,7 @@ MIXED = (0.25, 0.75)
 """Share of axial kinetic energy between which a mode is called axial-bending."""
 DENSE = 400
 """Coupled freedoms up to which all modes together cost no more than the few that are needed."""
+_FULL_MATRICES = 6  # that stand in memory together while all modes are found
 _SPARE = 6  # modes beyond those needed, among which a gap is sought
 
 
@@ -365,7 +368,7 @@ def _solved(
     for freedoms in groups:
         own_k, own_m = k[freedoms][:, freedoms], m[freedoms][:, freedoms]
         if count is None:
-            squares, shapes = eigh(own_k.toarray(), own_m.toarray())
+            squares, shapes = _all_of(own_k, own_m)
         else:
             squares, shapes = _lowest_of(own_k, own_m, count)
         if len(squares) < len(freedoms):  # above its last mode nothing of this group is known
@@ -389,6 +392,17 @@ def _lowest_of(k: csr_array, m: csr_array, wanted: int) -> tuple[np.ndarray, np.
         last = wanted + int(np.argmax(squares[wanted:] / squares[wanted - 1 : -1]))
         if count_below(k, m, float(np.sqrt(squares[last - 1] * squares[last]))) == last:
             return squares[:last], shapes[:, :last]
+    return _all_of(k, m)
+
+
+def _all_of(k: csr_array, m: csr_array) -> tuple[np.ndarray, np.ndarray]:
+    """Return omega^2 and shapes of all modes of a group of freedoms, if they fit into memory."""
+    size = k.shape[0]
+    needed = 8.0 * _FULL_MATRICES * size**2
+    if needed > MEMORY_LIMIT:
+        allowed = f"all modes of {size} coupled freedoms would need about {needed / 1e9:.3g} GB"
+        allowed += f" of memory, too much: the limit is {MEMORY_LIMIT / 1e9:.3g} GB"
+        raise InputError("modes", None, allowed, "Use fewer modes, elements or bearings")
     return eigh(k.toarray(), m.toarray())
 
 
