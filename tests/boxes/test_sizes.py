@@ -129,7 +129,7 @@ def test_nodes_are_counted_before_they_are_made(mesh):
 def test_more_modes_than_fit_into_memory_are_refused():
     pytest.importorskip("pyfe3d")
     shell = BOX.shell(rb.BoxMesh(100, 10, 20, 10))
-    refused("^modes = 3000: would need about .* GB", shell.modes, 3000)
+    refused("^modes = 3000: so many would need about .* GB", shell.modes, 3000)
 
 
 def test_the_memory_of_a_shell_is_foreseen():

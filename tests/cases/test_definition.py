@@ -230,3 +230,13 @@ def test_a_vehicle_file_of_the_same_name_elsewhere_is_another_vehicle(tmp_path, 
         monkeypatch.chdir(place)
         changes = {"train.vehicle": "own.toml", "train.cars": 1, "run.loads": "wheels"}
         assert rb.case("paper").replace(changes).train.vehicle.length == length
+
+
+def test_many_places_count_for_the_size_of_a_run():
+    """A run that just fits does not with the histories of a hundred places."""
+    fixed = 1.2e8
+    needed = rb.settings.bytes_needed(PAPER.train, PAPER.deck, PAPER.settings)
+    step = PAPER.settings.time_step * (needed - fixed) / (1.8e9 - fixed)
+    fits = PAPER.replace({"run.time_step": step})
+    with pytest.raises(rb.InputError, match=r"^output\.points = 100: a run with so many places"):
+        fits.replace({"output.points": [0.36 * i for i in range(100)]})

@@ -165,6 +165,7 @@ def test_a_built_wheel_carries_the_data(site, tmp_path):
 def test_a_built_wheel_hands_out_the_same_notebooks_as_the_checkout(site, tmp_path):
     assert {path.name for path in site.iterdir()} == {
         "railbridge",
+        "railbridge_command.py",
         next(site.glob("*.dist-info")).name,
     }
     carried = {path.name for path in (site / "railbridge" / "share" / "notebooks").iterdir()}

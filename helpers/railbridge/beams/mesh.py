@@ -21,9 +21,8 @@ from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU
 
-from ..errors import InputError
 from ..guideways import PiecewiseCubic
-from ..settings import MEMORY_LIMIT
+from ..settings import refuse_bytes
 from . import elements
 from .bearings import null_space
 from .eigen import count_below, factorised, lowest
@@ -399,10 +398,8 @@ def _all_of(k: csr_array, m: csr_array) -> tuple[np.ndarray, np.ndarray]:
     """Return omega^2 and shapes of all modes of a group of freedoms, if they fit into memory."""
     size = k.shape[0]
     needed = 8.0 * _FULL_MATRICES * size**2
-    if needed > MEMORY_LIMIT:
-        allowed = f"all modes of {size} coupled freedoms would need about {needed / 1e9:.3g} GB"
-        allowed += f" of memory, too much: the limit is {MEMORY_LIMIT / 1e9:.3g} GB"
-        raise InputError("modes", None, allowed, "Use fewer modes, elements or bearings")
+    remedy = "Use fewer modes, elements or bearings"
+    refuse_bytes("modes", None, needed, f"all modes of {size} coupled freedoms", remedy)
     return eigh(k.toarray(), m.toarray())
 
 

@@ -11,8 +11,8 @@ from typing import Annotated
 
 import numpy as np
 
-from ..errors import InputError, Range, check_fields
-from ..settings import MEMORY_LIMIT
+from ..errors import Range, check_fields
+from ..settings import MEMORY_LIMIT, refuse_bytes
 from .dimensions import BoxDimensions
 from .pads import Pad
 from .plates import Plate, Strip
@@ -142,11 +142,7 @@ def _refuse_size(box: BoxDimensions, mesh: BoxMesh) -> None:
     else:
         field = max(vars(mesh), key=lambda name: getattr(mesh, name) / getattr(usual, name))
         value, remedy, field = getattr(mesh, field), "Use fewer elements", f"mesh.{field}"
-    allowed = (
-        f"gives the shell {size} nodes, which would need about {needed / 1e9:.3g} GB of memory"
-    )
-    allowed += f", too much: the limit is {MEMORY_LIMIT / 1e9:.3g} GB"
-    raise InputError(field, value, allowed, remedy)
+    refuse_bytes(field, value, needed, f"gives the shell {size} nodes, which", remedy)
 
 
 def node_count(box: BoxDimensions, mesh: BoxMesh) -> int:

@@ -16,7 +16,7 @@ from .. import errors
 from ..beams.eigen import lowest
 from ..errors import InputError
 from ..guideways import PiecewiseCubic
-from ..settings import MEMORY_LIMIT
+from ..settings import refuse_bytes
 from .motions import ShellModes, described, sectionwise
 from .pads import Pad, elimination, free_motion_count, support_rows
 from .plates import PlateModel, freedoms_of
@@ -100,10 +100,7 @@ class Shell(PlateModel):
         """
         count = errors.integer("modes", count, least=1)
         needed = shell_bytes(6 * len(self.nodes), count)
-        if needed > MEMORY_LIMIT:
-            allowed = f"would need about {needed / 1e9:.3g} GB of memory, too much"
-            allowed += f": the limit is {MEMORY_LIMIT / 1e9:.3g} GB"
-            raise InputError("modes", count, allowed, "Use fewer modes or a coarser mesh")
+        refuse_bytes("modes", count, needed, "so many", "Use fewer modes or a coarser mesh")
         k, m = self._reduced
         count = errors.integer("modes", count, least=1, most=max(k.shape[0] // 4, 1))
         squares, vectors = lowest(k, m, count)
