@@ -15,8 +15,8 @@ from .tracks import Track
 from .trains import AnyTrain, AxleTrain, Passage
 
 __all__ = [
-    "COARSE_SAMPLES_PER_PERIOD", "LEAD_IN_SECONDS", "Options", "Settings", "bytes_needed", "check",
-    "default_time_step", "highest_frequency",
+    "COARSE_SAMPLES_PER_PERIOD", "LEAD_IN_SECONDS", "MEMORY_LIMIT", "Options", "Settings",
+    "bytes_needed", "check", "default_time_step", "highest_frequency", "refuse_bytes",
 ]  # fmt: skip
 
 LEAD_IN_SECONDS = 7.5
@@ -274,6 +274,28 @@ def bytes_needed(train: AnyTrain, deck: Guideway, settings: Settings, points: in
     return 8.0 * (kept + working + state + forces + iterated + summary) + 1.2e8
 
 
+def refuse_bytes(
+    field: str, value: Any, needed: float, what: str, remedy: str, source: str = ""
+) -> None:
+    """Refuse what would not fit into memory, before it is made: one limit for all doors.
+
+    Parameters
+    ----------
+    field, value
+        What is too large.
+    needed : float
+        Bytes.
+    what : str
+        What needs them; goes on "would need about ...".
+    remedy, source
+        See `InputError`.
+    """
+    if needed > MEMORY_LIMIT:
+        allowed = f"{what} would need about {needed / 1e9:.3g} GB of memory, too much"
+        allowed += f": the limit is {MEMORY_LIMIT / 1e9:.3g} GB"
+        raise InputError(field, value, allowed, remedy, source)
+
+
 def _refuse_size(
     train: AnyTrain, deck: Guideway, track: Track, asked: Options, settings: Settings
 ) -> None:
@@ -283,13 +305,7 @@ def _refuse_size(
         field, value, _, words, remedy = max(
             _sizes(train, deck, track, asked, settings), key=lambda size: size[2]
         )
-        raise InputError(
-            field,
-            value,
-            f"{words}this run would need about {needed / 1e9:.3g} GB of memory, too much: "
-            f"the limit is {MEMORY_LIMIT / 1e9:.3g} GB",
-            remedy,
-        )
+        refuse_bytes(field, value, needed, f"{words}this run", remedy)
 
 
 def _sizes(

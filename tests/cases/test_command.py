@@ -241,7 +241,7 @@ def test_what_is_no_case_file_is_refused(here, capsys, content, words):
         ('"harmonic"', '"harmonc"', "track.vertical.kind = 'harmonc'"),
         ("points = [6.0]", "points = [6.0, 60.0]", "output.points[2] = 60.0"),
         ("time_step = 4e-3", "time_step = 4e-9", "GB"),
-        ("speed = 40.0", "speed = 1e-6", "run.speed"),
+        ("speed = 40.0", "speed = 1e-6", "run.speed = 1e-06: this run"),
     ],
 )
 def test_a_bad_case_is_refused_with_the_path_of_the_key(here, capsys, before, after, words):

@@ -159,3 +159,17 @@ def test_bare_axles_go_out_too():
     step = begin(rb.AxleTrain([0.0, 3.0], [1e5, 2e5]), rb.Track(), AXIS, speed=30.0)
     total = nodal_loads(step).values[:, 2].sum(axis=0)
     assert total.min() == pytest.approx(-3e5) and total[0] == pytest.approx(-1e5)
+
+
+def test_loads_that_would_not_fit_into_memory_are_refused(ours, tmp_path):
+    with pytest.raises(rb.InputError, match=r"^line = 20001: loads of so many nodes at .* 2 GB"):
+        nodal_loads(ours, long_line(tmp_path, 20_000))
+    with pytest.raises(rb.InputError, match=r"^line = 4001: shapes of so many nodes .* 2 GB"):
+        begin(TRAIN, TRACK, long_line(tmp_path, 4000), **OPTIONS)
+
+
+def long_line(folder, elements):
+    rows = (f"{i},{36.0 * i / elements!r},0,0\n" for i in range(elements + 1))
+    path = folder / "nodes.csv"
+    path.write_text("# units: m, kg\nnode,x,y,z\n" + "".join(rows))
+    return exchange.read_nodes(path).line()

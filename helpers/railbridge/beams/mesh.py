@@ -23,6 +23,7 @@ from scipy.sparse.linalg import ArpackError, SuperLU
 
 from ..errors import InputError, brief
 from ..guideways import PiecewiseCubic
+from ..settings import refuse_bytes
 from . import elements
 from .bearings import null_space
 from .eigen import count_below, factorised, lowest
@@ -43,6 +44,7 @@ MIXED = (0.25, 0.75)
 """Share of axial kinetic energy between which a mode is called axial-bending."""
 DENSE = 400
 """Coupled freedoms up to which all modes together cost no more than the few that are needed."""
+_FULL_MATRICES = 6  # that stand in memory together while all modes are found
 _SPARE = 6  # modes beyond those needed, among which a gap is sought
 
 
@@ -386,7 +388,7 @@ def _solved(
     for freedoms in groups:
         own_k, own_m = k[freedoms][:, freedoms], m[freedoms][:, freedoms]
         if count is None:
-            squares, shapes = eigh(own_k.toarray(), own_m.toarray())
+            squares, shapes = _all_of(own_k, own_m)
         else:
             squares, shapes = _lowest_of(own_k, own_m, count)
         if len(squares) < len(freedoms):  # above its last mode nothing of this group is known
@@ -410,6 +412,15 @@ def _lowest_of(k: csr_array, m: csr_array, wanted: int) -> tuple[np.ndarray, np.
         last = wanted + int(np.argmax(squares[wanted:] / squares[wanted - 1 : -1]))
         if count_below(k, m, float(np.sqrt(squares[last - 1] * squares[last]))) == last:
             return squares[:last], shapes[:, :last]
+    return _all_of(k, m)
+
+
+def _all_of(k: csr_array, m: csr_array) -> tuple[np.ndarray, np.ndarray]:
+    """Return omega^2 and shapes of all modes of a group of freedoms, if they fit into memory."""
+    size = k.shape[0]
+    needed = 8.0 * _FULL_MATRICES * size**2
+    remedy = "Use fewer modes, elements or bearings"
+    refuse_bytes("modes", None, needed, f"all modes of {size} coupled freedoms", remedy)
     return eigh(k.toarray(), m.toarray())
 
 

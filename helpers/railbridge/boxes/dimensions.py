@@ -24,7 +24,7 @@ from .section import refuse_crossing
 __all__ = ["BoxDimensions", "Pads"]
 
 _Width = Annotated[float, Range(above=0.0, most=100.0, unit="m")]
-_Thickness = Annotated[float, Range(above=0.0, most=10.0, unit="m")]
+_Thickness = Annotated[float, Range(least=1e-4, most=10.0, unit="m")]
 
 
 @dataclass(frozen=True)
@@ -213,6 +213,13 @@ class BoxDimensions:
     def head_thickness(self) -> float:
         """Of the slab just inside the webs, m."""
         return max(self.slab_thickness, self.root_thickness)
+
+    @property
+    def thinnest(self) -> tuple[str, float]:
+        """Name and thickness (m) of the section's thinnest plate."""
+        names = ("slab", "root", "edge", "web", "bottom")
+        found = {f"{name}_thickness": getattr(self, f"{name}_thickness") for name in names}
+        return min(found.items(), key=lambda item: item[1])
 
     @property
     def _lean(self) -> float:

@@ -8,10 +8,15 @@ from typing import Any
 
 from ..beams import Beam, Bearing
 from ..decks import Deck, checked_damping, damping_ratios
-from ..errors import ResultWarning, brief
+from ..errors import InputError, ResultWarning, brief
 from .boxshell import BoxMesh, shell_of
 from .dimensions import BoxDimensions
-from .section import SectionProperties, section_properties
+from .section import (
+    MOST_TRIANGLES,
+    SectionProperties,
+    section_properties,
+    triangles_needed,
+)
 from .shell import Shell
 
 __all__ = ["Box"]
@@ -28,7 +33,21 @@ class Box(BoxDimensions):  # noqa: D101
 
     @cached_property
     def section(self) -> SectionProperties:
-        """Properties of the concrete section, by finite elements over it; needs the extra `fem`."""
+        """Properties of the concrete section, by finite elements over it; needs the extra `fem`.
+
+        Raises
+        ------
+        InputError
+            A plate too thin to be filled with triangles.
+        """
+        needed = triangles_needed(self.outline, (self.hole,))
+        if needed > MOST_TRIANGLES:
+            field, thickness = self.thinnest
+            allowed = (
+                f"is so thin that about {needed:.2g} triangles would be needed for the section"
+            )
+            remedy = "Give it in m, or use the shell"
+            raise InputError(field, thickness, f"{allowed}, at most {MOST_TRIANGLES}", remedy)
         return section_properties(self.outline, (self.hole,), self.poisson_ratio)
 
     def beam(

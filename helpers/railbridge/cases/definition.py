@@ -25,7 +25,7 @@ from ..errors import InputError, Remark, within
 from ..notices import remarks
 from ..plausibility import doubts
 from ..results import Crossing
-from ..settings import Options, Settings, check
+from ..settings import Options, Settings, bytes_needed, check, refuse_bytes
 from ..tracks import Track
 from ..trains import AnyTrain
 from . import objects, shelf, tables
@@ -88,6 +88,9 @@ class Case:
         given = t.output.points if t.output is not None else None
         points = [deck.length / 2] if given is None else given
         points = errors.places("output.points", points, (0.0, deck.length))
+        needed = bytes_needed(train, deck, settings, len(points))
+        remedy = "Use fewer places or a larger run.time_step"
+        refuse_bytes("output.points", len(points), needed, "a run with so many places", remedy)
         made = {
             "content": content, "train": train, "deck": deck, "track": track, "options": options,
             "settings": settings, "points": points,

@@ -25,7 +25,7 @@ import numpy as np
 from .. import errors
 from ..decks import Deck
 from ..errors import InputError, within
-from ..settings import MEMORY_LIMIT
+from ..settings import refuse_bytes
 from ..units import factor_of, per_metre
 from .modal import ModalModel
 from .nodes import ModelAxis, Nodes, model_units, read_nodes, stated_units
@@ -122,11 +122,8 @@ def read_modes(
 def _refuse_size(modes: int, nodes: int, name: str) -> None:
     """Refuse shapes that would not fit into memory: a few nodes of very many in many modes, say."""
     needed = 8.0 * (_COPIES * 6 * modes * nodes + 3 * modes**2)
-    if needed > MEMORY_LIMIT:
-        allowed = f"{modes} modes at {nodes} nodes would need about {needed / 1e9:.3g} GB of memory"
-        allowed += f", too much: the limit is {MEMORY_LIMIT / 1e9:.3g} GB"
-        remedy = "Write fewer modes, and only the nodes of the deck that they move"
-        raise InputError("modes", None, allowed, remedy, name)
+    remedy = "Write fewer modes, and only the nodes of the deck that they move"
+    refuse_bytes("modes", None, needed, f"{modes} modes at {nodes} nodes", remedy, name)
 
 
 def _units_of(table: Columns, units: Sequence[str] | None, nodes: Nodes) -> tuple[str, str]:

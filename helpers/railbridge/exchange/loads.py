@@ -22,6 +22,7 @@ import numpy as np
 from .. import errors
 from ..coupling import Coupling
 from ..errors import InputError, brief
+from ..settings import refuse_bytes
 from ..units import factor_of, per_metre
 from .nodes import RailLine
 
@@ -29,6 +30,8 @@ __all__ = ["FORMATS", "NodalLoads", "export_loads", "nodal_loads"]
 
 FORMATS = ("csv", "abaqus")
 _COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
+_COPIES = 4
+"""Of all loads, that stand in memory together while they are moved to the nodes."""
 _FORCE_UNITS = {("m", "kg"): "N", ("mm", "t"): "N", ("m", "t"): "kN", ("ft", "slug"): "lbf"}
 """Names of the unit of force of consistent sets, by their units of length and mass."""
 
@@ -129,6 +132,10 @@ def nodal_loads(run: Run, line: RailLine | None = None, couples: bool | None = N
         allowed = f"must be as long as the deck, {coupling.deck.length:g} m"
         raise InputError("line", line.length, allowed, "Choose nodes from end to end of the deck")
     couples = not line.paired if couples is None else errors.boolean("couples", couples)
+    count, samples = len(line.nodes), len(coupling.time)
+    needed = 8.0 * _COPIES * 6 * count * samples
+    remedy = "Use a coarser line, a larger time step or a shorter tail"
+    refuse_bytes("line", count, needed, f"loads of so many nodes at {samples} instants", remedy)
     axis = np.zeros((len(line.x), 5, len(coupling.time)))
     loads = coupling.station_loads(run.passes[run.iteration])
     for delay, start, load in zip(coupling.load_delays, coupling.loads.starts, loads, strict=True):

@@ -31,7 +31,7 @@ from ..coupling import Coupling, DeckState, ForcesAdded, prepare
 from ..decks import History
 from ..errors import InputError, brief, within
 from ..guideways import Guideway, PiecewiseCubic
-from ..settings import check
+from ..settings import check, refuse_bytes
 from ..tracks import FadeIn, Track
 from ..trains import AnyTrain
 from ..units import per_metre
@@ -104,6 +104,8 @@ def nodal_guideway(line: RailLine, track_height: float = 0.0) -> Guideway:
     Its shapes interpolate between the nodes by cubic splines.
     """
     n = len(line.x)
+    needed = 8.0 * 48 * n**2  # of all coordinates, and of the splines they are made of
+    refuse_bytes("line", n, needed, "shapes of so many nodes", "Use a coarser line")
     cardinal = spline(line.x, np.eye(n))
     coefficients = np.zeros((n - 1, 4, 3 * n, 3))
     for c in range(3):
