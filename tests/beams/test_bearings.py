@@ -615,7 +615,8 @@ def test_null_space_is_what_the_rows_leave_free(rows):
     free = null_space(rows)
     assert np.abs(rows @ free).max(initial=0.0) < 1e-9
     assert free.shape[1] == 6 - (np.linalg.matrix_rank(rows) if len(rows) else 0)
-    assert np.linalg.matrix_rank(free) == free.shape[1]
+    # NumPy 1 knows no rank of an empty matrix.
+    assert free.size == 0 or np.linalg.matrix_rank(free) == free.shape[1]
 
 
 def test_modes_on_bearings_off_the_axis_converge_with_the_mesh():

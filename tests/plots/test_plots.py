@@ -1,6 +1,7 @@
 """Every figure is drawn, says its units, changes no settings; no legend hides anything."""
 
 import inspect
+from functools import cache
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -29,20 +30,28 @@ def close():
     plt.close("all")
 
 
+@cache
+def box():
+    return rb.Box(
+        "box", (36.0,), 9.6, 0.25, 2.0, 0.35, 5.0, 0.2, 34e9, tracks={"left": 2.4, "right": -2.4}
+    )
+
+
+@cache
+def shell_and_modes():
+    shell = box().shell(rb.BoxMesh(16, 2, 4, 2))
+    return shell, shell.modes(6)
+
+
 @pytest.fixture(scope="module")
 def figures(case, run):
     """One call of every figure, by name."""
     car, deck, train, track = run.train.vehicles[0], run.deck, run.train, run.track
     notch = rb.Notch(((1, 1),), 2.7, 1.0, 1e-3, 0.05)
-    box = rb.Box(
-        "box", (36.0,), 9.6, 0.25, 2.0, 0.35, 5.0, 0.2, 34e9, tracks={"left": 2.4, "right": -2.4}
-    )
-    shell = box.shell(rb.BoxMesh(16, 2, 4, 2))
-    shell_modes = shell.modes(6)
     return {
         "acceleration": lambda: plots.acceleration(run, 18.0),
         "assurance": lambda: plots.assurance(np.eye(3), ("a", "b", "c"), ("d", "e", "f")),
-        "box_section": lambda: plots.box_section(box, box.section),
+        "box_section": lambda: plots.box_section(box(), box().section),
         "car_forces": lambda: plots.car_forces(run, steady={"force_z": 75.8e3}),
         "convergence": lambda: plots.convergence(run),
         "damping": lambda: plots.damping(1.0364, 4.87e-4, {"forcing": 1.389}),
@@ -58,8 +67,8 @@ def figures(case, run):
         "notch": lambda: plots.notch(notch, 0.0, 10.0),
         "reactions": lambda: plots.reactions(run),
         "section_force": lambda: plots.section_force(run, 18.0, "torsion"),
-        "shell_mode": lambda: plots.shell_mode(shell, shell_modes, 4),
-        "shell_modes": lambda: plots.shell_modes(shell, shell_modes),
+        "shell_mode": lambda: plots.shell_mode(*shell_and_modes(), 4),
+        "shell_modes": lambda: plots.shell_modes(*shell_and_modes()),
         "slope": lambda: plots.slope(track, deck=36.0),
         "spectra": lambda: plots.spectra(run),
         "spectrum": lambda: plots.spectrum(run, mark={"forcing": 1.389}),
