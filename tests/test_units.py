@@ -29,6 +29,27 @@ def test_a_unit_belongs_to_one_dimension_and_the_first_is_that_of_si():
     assert all(next(iter(family.values())) == 1.0 for family in units.UNITS.values())
 
 
+BOOK = {
+    "number": {"": 1.0, "-": 1.0, "1": 1.0, "rad": 1.0, "%": 1 / 100},
+    "length": {"m": 1.0, "cm": 1 / 100, "mm": 1 / 1000, "km": 1000, "in": 0.0254, "ft": 0.3048},
+    # The slug is the mass that one pound of force (under standard gravity) gives one foot/s2.
+    "mass": {"kg": 1.0, "t": 1000, "lb": 0.45359237, "slug": 0.45359237 * 9.80665 / 0.3048},
+    "stress": {"Pa": 1.0, "kPa": 1000, "MPa": 10**6, "GPa": 10**9},
+    "force": {"N": 1.0, "kN": 1000, "MN": 10**6},
+    "speed": {"m/s": 1.0, "km/h": 1000 / 3600},
+    "time": {"s": 1.0, "ms": 1 / 1000},
+}
+
+
+@pytest.mark.parametrize(
+    ("dimension", "unit"), [(name, unit) for name, family in BOOK.items() for unit in family]
+)
+def test_a_unit_is_worth_what_the_book_says(dimension, unit):
+    si = units.units_of(dimension)[0]
+    known = 3.0 * BOOK[dimension][unit]
+    assert units.quantity("x", 3.0, unit, si) == pytest.approx(known, rel=1e-7)
+
+
 def test_units_of_a_dimension_are_named():
     assert units.units_of("mass") == ("kg", "t", "lb", "slug")
     with pytest.raises(InputError, match="Did you mean 'length'"):

@@ -5,6 +5,7 @@ import io
 import threading
 from base64 import b64decode
 
+import ipywidgets as widgets
 import numpy as np
 import pytest
 from matplotlib.image import imread
@@ -276,6 +277,38 @@ def test_amplitude_is_si(all_panels):
     with pytest.raises(rb.InputError, match="amplitude = 4"):
         panel.set(amplitude=4.0)
     panel.reset()
+
+
+def labels_of(widget):
+    """Texts beside the controls, wherever they stand."""
+    own = [widget.value] if isinstance(widget, widgets.Label) else []
+    return own + [text for child in getattr(widget, "children", ()) for text in labels_of(child)]
+
+
+def test_beside_the_speed_stands_what_a_driver_reads(panel):
+    if "speed" not in panel.controls:
+        pytest.skip("this panel has no speed")
+    assert "= 72.0 km/h" in labels_of(panel.widget)
+    panel.set(speed=25.0)
+    assert "= 90.0 km/h" in labels_of(panel.widget) and "25.0 m/s (90.0 km/h)" in panel.summary
+
+
+def test_words_from_a_case_are_shown_and_never_run():
+    """Names in a file may hold anything; a page must show it as letters."""
+    control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
+    evil = "<img src=x onerror=alert(1)> & 'more'"
+
+    def compute(case, progress):
+        if case.settings.speed > 30.0:
+            raise RuntimeError(evil)
+
+    panel = panels.Panel(
+        rb.case("paper"), [control], [["a"]], lambda *_: None, lambda *_: evil, compute=compute
+    )
+    panel.sliders["speed"].value = 40.0
+    for shown in (panel.words.value, panel.trouble.value):
+        assert "&lt;img src=x onerror=alert(1)&gt; &amp; " in shown
+        assert "<img" not in shown
 
 
 def test_an_error_is_said_in_words_and_the_next_value_recovers(all_panels):

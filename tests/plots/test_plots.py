@@ -196,6 +196,33 @@ def test_spectra_titles_give_equation_3(run):
     assert titles[2] == f"i = 2, Eq. 3: {run.deviations.from_rigid[1]:+.3f} %"
 
 
+def labelled(ax, label):
+    return next(line for line in ax.lines if line.get_label() == label)
+
+
+def test_deviations_are_drawn_under_their_own_names(run):
+    known = run.deviations
+    assert not np.allclose(known.from_rigid[1:], known.from_previous[1:])
+    for runs, before in ((run, ""), ({"condensed": run}, "condensed, ")):
+        ax = plots.deviations(runs)
+        assert np.allclose(labelled(ax, f"{before}from rigid").get_ydata(), known.from_rigid)
+        assert np.allclose(labelled(ax, f"{before}from previous").get_ydata(), known.from_previous)
+        assert labelled(ax, f"{before}from rigid").get_xdata().tolist() == [1, 2, 3, 4]
+
+
+def test_iterations_are_drawn_under_their_own_numbers(run):
+    upper, lower = plots.iterations(run, "displacement_z", (0, 1, 4), x=18.0)
+    values = {i: 1e3 * run.at(i).displacement(18.0)["displacement_z"] for i in (0, 1, 4)}
+    assert np.allclose(labelled(upper, "rigid deck (0)").get_ydata(), values[0])
+    assert np.allclose(labelled(upper, "iteration 1").get_ydata(), values[1])
+    assert np.allclose(labelled(upper, "iteration 4").get_ydata(), values[4])
+    differences = [line for line in lower.lines if (line.get_gid() or "").startswith("rank")]
+    assert [np.abs(line.get_ydata()).max() for line in differences] == pytest.approx(
+        [np.abs(values[i] - values[4]).max() for i in (0, 1)]
+    )
+    assert lower.get_ylabel() == "minus iteration 4\n(mm)"
+
+
 def test_no_two_quantities_look_alike():
     lines = [
         (v.colour, v.line)
