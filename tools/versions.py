@@ -26,15 +26,18 @@ def environment_of(which, root=ROOT):
     return root / "build" / ("env-" + re.sub(r"[^\w.]+", "-", which).strip("-"))
 
 
-def installing(which, root=ROOT):
-    """uv's commands, each a list, that fill a new environment."""
+def installing(which, more=(), root=ROOT):
+    """uv's commands, each a list, that fill a new environment.
+
+    `which` is "oldest", a Python, or any other name with `more` packages beside the locked ones.
+    """
     folder = environment_of(which, root)
-    python = OLDEST_PYTHON if which == OLDEST else which
+    python = sys.executable if more else OLDEST_PYTHON if which == OLDEST else which
     how = ["--resolution", "lowest-direct"] if which == OLDEST else ["-c", str(root / LOCK)]
     package = f"{root}[{','.join(EXTRAS)}]"
     return [
         ["venv", "--quiet", "--python", python, str(folder)],
-        ["pip", "install", "--quiet", "--python", str(folder), *how, "-e", package],
+        ["pip", "install", "--quiet", "--python", str(folder), *how, "-e", package, *more],
     ]
 
 
@@ -44,14 +47,14 @@ def inputs(which, root=ROOT):
     return hashlib.sha256(b"\0".join(file.read_bytes() for file in files)).hexdigest()
 
 
-def make(which, root=ROOT):
+def make(which, more=(), root=ROOT):
     """The environment's Python; made anew if its inputs have changed."""
     folder = environment_of(which, root)
     stamp, wanted = folder / "railbridge-stamp", inputs(which, root)
     if not stamp.exists() or stamp.read_text(encoding="utf-8") != wanted:
         shutil.rmtree(folder, ignore_errors=True)
         settings = uv_environment(pip_settings(sys.executable))
-        for command in installing(which, root):
+        for command in installing(which, more, root):
             if subprocess.run([sys.executable, "-m", "uv", *command], env=settings).returncode:
                 sys.exit(f"The environment could not be made: uv {' '.join(command)}")
         stamp.write_text(wanted, encoding="utf-8")

@@ -3,6 +3,7 @@ again."""
 
 import importlib.util
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -26,7 +27,7 @@ def root(tmp_path):
 
 
 def test_the_oldest_are_those_of_pyproject_and_not_of_the_lock(versions, root):
-    venv, install = versions.installing("oldest", root)
+    venv, install = versions.installing("oldest", root=root)
     assert venv[venv.index("--python") + 1] == "3.11"
     assert install[install.index("--resolution") + 1] == "lowest-direct"
     assert not any("lock" in word for word in install)
@@ -34,10 +35,17 @@ def test_the_oldest_are_those_of_pyproject_and_not_of_the_lock(versions, root):
 
 
 def test_another_python_gets_the_locked_packages(versions, root):
-    venv, install = versions.installing("3.13", root)
+    venv, install = versions.installing("3.13", root=root)
     assert venv[venv.index("--python") + 1] == "3.13"
     assert install[install.index("-c") + 1] == str(root / "requirements.lock")
     assert "--resolution" not in install
+
+
+def test_a_tool_s_packages_come_beside_the_locked_ones(versions, root):
+    venv, install = versions.installing("mutants", ["mutmut>=3.8"], root)
+    assert venv[venv.index("--python") + 1] == sys.executable
+    assert install[install.index("-c") + 1] == str(root / "requirements.lock")
+    assert install[-1] == "mutmut>=3.8"
 
 
 def test_environments_stand_beside_each_other_in_build(versions, root):
@@ -58,13 +66,13 @@ def test_an_environment_is_made_once_and_again_when_its_inputs_change(versions, 
     monkeypatch.setattr(versions.subprocess, "run", pretend)
     monkeypatch.setattr(versions, "pip_settings", lambda python: {})
     for _ in range(2):
-        versions.make("oldest", root)
+        versions.make("oldest", root=root)
     assert made == ["venv", "pip"]
     (root / "requirements.lock").write_text("numpy==2.1\n")
-    versions.make("oldest", root)
+    versions.make("oldest", root=root)
     assert made == ["venv", "pip"], "the lock has no part in the oldest"
     (root / "pyproject.toml").write_text("[project]\nname = 'x'\n")
-    versions.make("oldest", root)
+    versions.make("oldest", root=root)
     assert made == ["venv", "pip"] * 2
 
 
@@ -76,5 +84,5 @@ def test_a_failed_installation_leaves_no_stamp(versions, root, monkeypatch):
     monkeypatch.setattr(versions.subprocess, "run", fail)
     monkeypatch.setattr(versions, "pip_settings", lambda python: {})
     with pytest.raises(SystemExit, match="could not be made: uv venv"):
-        versions.make("3.13", root)
+        versions.make("3.13", root=root)
     assert not [*root.rglob("railbridge-stamp")]
