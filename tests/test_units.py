@@ -34,11 +34,27 @@ BOOK = {
     "length": {"m": 1.0, "cm": 1 / 100, "mm": 1 / 1000, "km": 1000, "in": 0.0254, "ft": 0.3048},
     # The slug is the mass that one pound of force (under standard gravity) gives one foot/s2.
     "mass": {"kg": 1.0, "t": 1000, "lb": 0.45359237, "slug": 0.45359237 * 9.80665 / 0.3048},
+    "area": {"m2": 1.0},
+    "second moment of area": {"m4": 1.0},
+    "mass per length": {"kg/m": 1.0, "t/m": 1000},
+    "density": {"kg/m3": 1.0},
+    "moment of inertia": {"kg m2": 1.0, "t m2": 1000},
+    "stiffness": {"N/m": 1.0, "kN/m": 1000, "MN/m": 10**6},
+    "damping": {"N s/m": 1.0, "kN s/m": 1000},
+    "bending stiffness": {"N m2": 1.0, "kN m2": 1000},
+    "frequency": {"Hz": 1.0},
     "stress": {"Pa": 1.0, "kPa": 1000, "MPa": 10**6, "GPa": 10**9},
     "force": {"N": 1.0, "kN": 1000, "MN": 10**6},
     "speed": {"m/s": 1.0, "km/h": 1000 / 3600},
     "time": {"s": 1.0, "ms": 1 / 1000},
 }
+
+
+def test_the_book_has_every_unit():
+    """A new unit needs its line above."""
+    assert {d: set(family) for d, family in units.UNITS.items()} == {
+        d: set(family) for d, family in BOOK.items()
+    }
 
 
 @pytest.mark.parametrize(
