@@ -45,6 +45,8 @@ SHARED = (
     "numpy", "scipy.linalg", "scipy.signal", "scipy.sparse.linalg", "scipy.interpolate",
     "scipy.optimize", "scipy.integrate", "pandas", "pydantic", "matplotlib.pyplot", "PIL.Image",
     "ipywidgets", "IPython", "nbformat", "jsonschema", "hypothesis.strategies", "pytest",
+    "nbval.plugin", "xdist.plugin", "_hypothesis_pytestplugin", "anyio.pytest_plugin",
+    "hypothesis.internal.conjecture.engine", "matplotlib.backends.backend_agg",
 )  # fmt: skip
 # What these are taken from is mostly equal to what they give.
 CONVERSIONS = ("float", "int", "bool", "tuple", "list")
