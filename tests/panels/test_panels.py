@@ -380,6 +380,59 @@ def test_the_paper_case_gives_the_known_numbers(all_panels):
     assert "damping would be 6.15 %" in all_panels["deck_modes"].summary
 
 
+def test_a_wavelength_is_that_of_both_directions(all_panels):
+    panel = all_panels["overview"].set(wavelength=12.0)
+    paths = ("track.vertical.wavelength", "track.lateral.wavelength")
+    assert [panel.case.get(path) for path in paths] == [12.0, 12.0]
+    panel.reset()
+
+
+def test_the_words_of_the_deck_are_its_own_extremes(all_panels):
+    panel = all_panels["deck_response"].set(speed=30.0, loads="bogies")
+    run = panel.case.run()
+    w, when_w = run.displacement(18.0).extreme("displacement_z")
+    m, when_m = run.section_forces(18.0).extreme("moment_vertical")
+    assert when_w != when_m
+    assert (
+        f"largest at x = 18 m are {1e3 * w:.2f} mm (t = {when_w:.2f} s) and {m / 1e3:.0f} kN m "
+        f"(t = {when_m:.2f} s), bogie loads under rigid-deck forces." in panel.summary
+    )
+    panel.reset()
+
+
+@pytest.mark.parametrize("name", ["fixed_point", "overview"])
+def test_the_words_of_an_iteration_are_those_of_its_number(all_panels, name):
+    panel = all_panels[name].set(speed=30.0, iteration=2)
+    run = panel.case.run()
+    deviation, change = run.deviations.from_rigid[1], run.changes[1]
+    assert len({f"{c:.1e}" for c in run.changes}) == 4
+    sag = [1e3 * run.at(i).displacement(18.0).extreme("displacement_z")[0] for i in (0, 2)]
+    assert f"{sag[1]:.2f} mm at iteration 2 of 4" in panel.summary
+    assert f"{sag[0]:.2f} mm at iteration 0" in panel.summary
+    if name == "fixed_point":
+        words = f"deviation from the rigid deck {deviation:+.3f} % (Eq. 3), change of this "
+        words += f"iteration {change:.1e}."
+    else:
+        words = f"the force of car 1 differs from that on a rigid deck by {deviation:+.1f} % "
+        words += f"(Eq. 3); the wheel forces changed by {100 * change:.2g} % in this iteration; "
+        words += "forcing 2.083 Hz."
+    assert words in panel.summary
+    assert "rigid-deck forces" in panel.set(iteration=0).summary
+    panel.reset()
+
+
+def test_each_picture_shows_the_frequencies_of_its_subject(all_panels):
+    for name, values in (
+        ("deck_modes", lambda case: case.deck.frequencies_hz),
+        ("irregularities", lambda case: case.train.vehicles[0].modes().frequencies_hz),
+    ):
+        panel = all_panels[name]
+        lines = {line.get_gid(): line for line in panel._axes["frequencies"].lines}
+        shown = lines["natural"].get_xdata()[::3]
+        assert np.allclose(shown, values(panel.case)[: len(shown)]), name
+        assert np.allclose(lines["line at forcing"].get_xdata(), 20.0 / 14.4)
+
+
 def test_a_value_seen_before_is_not_computed_again():
     runs = []
 
