@@ -22,6 +22,25 @@ def test_a_whole_number_of_periods_is_one_line_of_its_amplitude():
     assert list(spectrum.to_frame().columns) == ["frequency (Hz)", "amplitude (N)"]
 
 
+def test_a_spectrum_says_its_unit_and_the_largest_line_in_plain_numbers():
+    assert rb.Spectrum(np.ones(1), np.ones(1)).unit == "N"
+    counted = rb.amplitude_spectrum([1, -1] * 50, 0.5, bins=200, unit="kN m")
+    assert (counted.unit, len(counted.amplitude)) == ("kN m", 50)
+    assert list(counted.to_frame().columns)[1] == "amplitude (kN m)"
+    assert counted.frequency[-1] == 1.0  # the fastest that samples half a second apart show
+    assert [type(number) for number in counted.peak] == [float, float]
+
+
+def test_equation_3_has_no_value_where_the_reference_is_round_off():
+    def spectrum(size):
+        return rb.Spectrum(np.ones(1), np.array([size]))
+
+    assert np.isnan(rb.deviation_percent(spectrum(1.0), spectrum(0.9e-9)))
+    known = 100 * (1 / 1.1e-9 - 1)
+    assert rb.deviation_percent(spectrum(1.0), spectrum(1.1e-9)) == pytest.approx(known)
+    assert rb.deviation_percent(spectrum(0.0), spectrum(1.0)) == -100.0
+
+
 def test_equation_3_by_hand():
     def spectrum(*lines):
         return rb.Spectrum(np.arange(1, len(lines) + 1) / 3, np.array(lines))

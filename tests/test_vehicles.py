@@ -168,6 +168,15 @@ def test_planar_car_of_the_data_file_is_the_car_s_plane():
     assert rb.planar_car(rb.vehicle("sprung_mass")).labels == ("mass z",)
 
 
+def test_a_planar_car_weighs_what_the_car_does_wheelsets_included():
+    heavy = replace(CAR, static_wheelset_mass=1500.0)
+    plane = planar_car(heavy)
+    assert plane.static_wheelset_mass == 1500.0
+    assert plane.weight == pytest.approx(heavy.weight) and heavy.weight > CAR.weight + 5e4
+    assert [c.static_load for c in plane.contacts] == pytest.approx([heavy.weight / 4] * 4)
+    assert plane.length == CAR.length and plane.name == f"{CAR.name} planar"
+
+
 def test_springs_in_series_by_hand():
     ks, kt, m = 4 * 1060e3, 8 * 2976e3, 50990.0
     assert np.sqrt(ks * kt / (ks + kt) / m) / 2 / np.pi == pytest.approx(1.337, abs=5e-4)
