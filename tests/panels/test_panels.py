@@ -209,7 +209,7 @@ def test_remarks_stand_below_the_summary_and_go_with_their_reason(panel):
 
 
 def test_remarks_are_escaped_and_three_at_most():
-    found = [rb.errors.InputWarning("deck", f"<b>{i}</b> is odd") for i in range(5)]
+    found = [rb.InputWarning("deck", f"<b>{i}</b> is odd") for i in range(5)]
     case = rb.case("paper").replace(QUICK)
     control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
     panel = panels.Panel(
@@ -226,7 +226,7 @@ def test_remarks_come_with_the_exact_picture_not_while_moving():
 
     def remarks(case, result):
         asked.append(case.settings.time_step)
-        return [rb.errors.ResultWarning("", f"at {case.settings.speed:g} m/s")]
+        return [rb.ResultWarning("", f"at {case.settings.speed:g} m/s")]
 
     control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
     case = rb.case("paper").replace({"run.time_step": None})
