@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import railbridge as rb
+from railbridge import guideways
 from railbridge.guideways import PiecewiseCubic
 
 DECK = rb.deck("viaduct36")
@@ -65,3 +66,29 @@ def test_a_track_by_its_name_is_its_distance():
     assert DECK.track_offset(1.5) == 1.5
     with pytest.raises(rb.InputError, match=r"^track_offset = 'rigth'.*right"):
         DECK.track_offset("rigth")
+
+
+def test_windows_never_describe_more_than_they_hold(monkeypatch):
+    """A view of more than 2^31 bytes stops a 32-bit Python, even if nothing of it is made."""
+    largest = []
+
+    def watched(values, shape, strides, writeable):
+        largest.append(int(np.prod([int(n) for n in shape])) * values.itemsize)
+        return np.lib.stride_tricks.as_strided(values, shape, strides, writeable=writeable)
+
+    monkeypatch.setattr(guideways, "as_strided", watched)
+    values = np.arange(3 * 50.0).reshape(3, 50)
+    for starts in ([0, 10, 20], [4], [0, 7, 9], [30, 45]):
+        windows = guideways._windows(values, np.array(starts), 12)
+        padded = np.pad(values, ((0, 0), (0, 20)))
+        assert np.array_equal(windows, np.stack([padded[:, s : s + 12] for s in starts], axis=1))
+    assert max(largest) == 3 * 3 * 12 * 8
+    # A long train on a long deck: many windows of many samples, described a few at a time.
+    monkeypatch.setattr(guideways, "_LARGEST", 200_000)
+    largest.clear()
+    train = rb.Train(rb.vehicle("xia2000"), cars=12, car_spacing=22.5)
+    run = rb.cross(train, DECK, speed=30.0, iterations=1, time_step=3e-3)
+    assert largest and max(largest) <= 200_000
+    monkeypatch.undo()
+    whole = rb.cross(train, DECK, speed=30.0, iterations=1, time_step=3e-3)
+    assert np.array_equal(run.wheel_forces, whole.wheel_forces)

@@ -11,7 +11,14 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from railbridge.errors import InputError
-from railbridge.response import LinearSystem, oscillator, ramp_coefficients, second_order_system
+from railbridge.response import (
+    LinearSystem,
+    lagged,
+    moved_on,
+    oscillator,
+    ramp_coefficients,
+    second_order_system,
+)
 
 
 def phi(order, x):
@@ -201,3 +208,42 @@ def test_halving_the_step_of_a_piecewise_linear_input_changes_nothing(ratio, ome
 def test_time_step_must_be_positive():
     with pytest.raises(InputError, match="time_step"):
         oscillator(1.0, 0.1).sampled(0.0)
+
+
+@pytest.mark.parametrize("lag", [1e-5, 1e-3, 0.3])
+def test_a_lag_is_that_of_a_first_order_equation(lag):
+    """A ramp 3 t gives ``3 (t - lag + lag exp(-t / lag))``; after it, decay."""
+    h = 2e-3
+    t = h * np.arange(200)
+    u = np.minimum(3.0 * t, 0.3)
+    y = lagged(u, lag, h)
+    up = t <= 0.1
+    assert y[up] == pytest.approx(3.0 * (t - lag + lag * np.exp(-t / lag))[up], abs=1e-12)
+    after = t >= 0.1
+    assert 0.3 - y[after] == pytest.approx(
+        (0.3 - y[after][0]) * np.exp(-(t[after] - t[after][0]) / lag), abs=1e-9
+    )
+    assert lagged(u, 0.0, h) is u
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.03, 0.9, 1.0, 1.0 + 1e-9, 3.0])
+def test_modes_that_move_on_meet_the_next_sample(ratio):
+    """In one span of a step, and in two that share it: as the sampled modes do."""
+    omega, h = 40.0, 5e-3
+    system = oscillator(omega, ratio).sampled(h)
+    force = np.array([[0.0, 1.0, -0.5, 2.0]])
+    q, velocity = system(force)
+
+    def go(state, ends, span):
+        ends = tuple(np.full((1, 1), f) for f in ends)
+        state = tuple(np.full((1, 1), x) for x in state)
+        moved = moved_on(np.array([omega]), np.array([ratio]), state, ends, np.array([span]))
+        return [float(x[0, 0]) for x in moved]
+
+    # On the straight line from -0.5 to 2 the force is 0.5 after two fifths of the step.
+    once = go((q[2], velocity[2]), force[0, 2:], h)
+    twice = go(go((q[2], velocity[2]), (-0.5, 0.5), 0.4 * h), (0.5, 2.0), 0.6 * h)
+    size = np.abs(q).max(), np.abs(velocity).max()
+    for found in (once, twice):
+        for value, last, scale in zip(found, (q[3], velocity[3]), size, strict=True):
+            assert value == pytest.approx(last, abs=1e-7 * scale)

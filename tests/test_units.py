@@ -30,16 +30,110 @@ def test_a_unit_belongs_to_one_dimension_and_the_first_is_that_of_si():
 
 
 def test_units_of_a_dimension_are_named():
-    assert units.units_of("mass") == ("kg", "t", "lb", "slug")
+    assert units.units_of("mass")[:4] == ("kg", "t", "lb", "slug")
+    assert units.units_of("length") == ("m", "mm", "cm", "km", "in", "ft")
     with pytest.raises(InputError, match="Did you mean 'length'"):
         units.units_of("lenght")
 
 
 def test_whole_numbers_of_a_unit_make_a_metre():
     """Dividing by them rounds once: 1234.567 mm are the float nearest to 1.234567 m."""
-    assert [units.PER_METRE[u] for u in ("m", "cm", "mm")] == [1.0, 100.0, 1000.0]
-    assert units.PER_METRE["in"] == 1 / 0.0254 and units.PER_METRE["ft"] == 1 / 0.3048
-    assert 1234.567 / units.PER_METRE["mm"] == 1.234567
+    assert [units.per_metre(u) for u in ("m", "cm", "mm")] == [1.0, 100.0, 1000.0]
+    assert units.per_metre("in") == 1 / 0.0254 and units.per_metre("ft") == 1 / 0.3048
+    assert 1234.567 / units.per_metre("mm") == 1.234567 and units.per_metre("0.5") == 2.0
+
+
+POUND, INCH, FOOT = 4.4482216152605, 0.0254, 0.3048
+"""Of force, N; m: as they are defined."""
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "si", "expected"),
+    [
+        (3.0, "%", "", 0.03), (2.0, "-", "", 2.0), (25.0, "%", "1", 0.25),
+        (5.0, "mm2", "m2", 5e-6), (5.0, "cm2", "m2", 5e-4), (2.0, "in2", "m2", 2 * INCH**2),
+        (7.0, "cm4", "m4", 7e-8), (7.0, "mm4", "m4", 7e-12), (7.0, "in4", "m4", 7 * INCH**4),
+        (1.0, "slug", "kg", POUND / FOOT), (1.0, "lbf s2/in", "kg", POUND / INCH),
+        (1.0, "kip s2/in", "kg", 1000 * POUND / INCH), (1.0, "kN s2/mm", "kg", 1e6),
+        (1.0, "N s2/mm", "kg", 1000.0), (1.0, "kN s2/m", "kg", 1000.0),
+        (1.0, "kip s2/ft", "kg", 1000 * POUND / FOOT),
+        (1.0, "t/mm3", "kg/m3", 1e12), (2.5, "t/m3", "kg/m3", 2500.0),
+        (150.0, "lb/ft3", "kg/m3", 2402.769), (1.0, "t mm2", "kg m2", 1e-3),
+        (1.0, "lbf s2 in", "kg m2", POUND * INCH), (1.0, "slug ft2", "kg m2", POUND * FOOT),
+        (1.0, "lb ft2", "kg m2", 0.04214011), (1.0, "kip s2 in", "kg m2", 1000 * POUND * INCH),
+        (1.0, "kip", "N", 1000 * POUND), (1.0, "lbf", "N", POUND),
+        (1.0, "N/mm", "N/m", 1e3), (1.0, "kN/mm", "N/m", 1e6),
+        (1.0, "lbf/in", "N/m", 175.12683524647636), (1.0, "kip/in", "N/m", 175126.83524647636),
+        (1.0, "lbf/ft", "N/m", POUND / FOOT), (1.0, "kip/ft", "N/m", 1000 * POUND / FOOT),
+        (1.0, "lbf s/in", "N s/m", POUND / INCH), (1.0, "kip s/in", "N s/m", 1000 * POUND / INCH),
+        (1.0, "N s/mm", "N s/m", 1e3), (1.0, "MN s/m", "N s/m", 1e6),
+        (1.0, "MN m2", "N m2", 1e6), (1.0, "GN m2", "N m2", 1e9), (1.0, "kN mm2", "N m2", 1e-3),
+        (1.0, "kip in2", "N m2", 1000 * POUND * INCH**2), (1.0, "N mm2", "N m2", 1e-6),
+        (1.0, "N/mm2", "Pa", 1e6), (1.0, "ksi", "Pa", 6894757.293168361),
+        (1.0, "psi", "Pa", 6894.757),
+        (60.0, "mph", "m/s", 26.8224), (1.0, "ft/s", "m/s", 0.3048),
+        (6.283185307179586, "rad/s", "Hz", 1.0), (1.0, "lb/ft", "kg/m", 1.488164),
+    ],
+)  # fmt: skip
+def test_what_a_unit_is(value, unit, si, expected):
+    assert units.quantity("x", value, unit, si) == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("unit", "found"),
+    [
+        ("kN*s/m", "kN s/m"), ("kN\u00b7s/m", "kN s/m"), ("kg m^2", "kg m2"),
+        ("kg m\u00b2", "kg m2"),
+        (" kN / m ", "kN/m"), ("mm\u2074", "mm4"), ("kg  m2", "kg m2"), ("-", "-"), ("%", "%"),
+        ("kNs/m", "kNs/m"),
+    ],
+)  # fmt: skip
+def test_units_are_known_however_their_powers_and_products_are_written(unit, found):
+    assert units.spelled(unit) == found
+
+
+def test_a_unit_without_a_name_is_a_number():
+    assert units.factor_of("units[2]", "lbf s2/in", "mass") == pytest.approx(175.126835)
+    assert units.factor_of("units[2]", "175.127", "mass") == 175.127
+    assert units.factor_of("units[1]", 0.3048, "length") == 0.3048
+    for bad in ("", "pound", 0.0, -1.0, "nan", None, True, [1.0]):
+        with pytest.raises(InputError, match=r"^units\[2\]"):
+            units.factor_of("units[2]", bad, "mass")
+
+
+@pytest.mark.parametrize(
+    ("text", "comma", "number"),
+    [
+        ("1.5", False, 1.5), ("-.5e-3", False, -5e-4), ("2.", False, 2.0), (" 7 ", True, 7.0),
+        ("1,5", True, 1.5), ("-,5e-3", True, -5e-4), ("6,27841384e-21", True, 6.27841384e-21),
+        ("2,", True, 2.0),
+    ],
+)  # fmt: skip
+def test_numbers_as_people_write_them(text, comma, number):
+    assert units.written("x", text, comma) == number
+
+
+@pytest.mark.parametrize(
+    ("text", "comma", "words"),
+    [
+        ("", False, "is blank, must be a number"), ("  ", True, "is blank"),
+        ("1,5", False, "has a decimal comma. Use a point as decimal mark"),
+        ("50,990", False, "may have a mark for thousands"),
+        ("50 990", False, "may have a mark for thousands"),
+        ("1.234,5", True, "may have a mark for thousands"),
+        ("1,234.5", False, "may have a mark for thousands"),
+        ("50'990", False, "may have a mark for thousands"),
+        ("1.5", True, "has a point where other numbers of the file have a decimal comma"),
+        ("1.5D-3", False, "has an exponent without e. Write it as 1.5e-3"),
+        ("1.5-3", False, "has an exponent without e"),
+        ("nan", False, "must be a finite number"), ("1e999", False, "must be a finite number"),
+        ("1_000", False, "must be a finite number"), ("two", True, "must be a finite number"),
+    ],
+)  # fmt: skip
+def test_texts_that_are_no_numbers_are_refused_for_what_they_are(text, comma, words):
+    with pytest.raises(InputError) as error:
+        units.written("x", text, comma)
+    assert words in str(error.value)
 
 
 @pytest.mark.parametrize(
@@ -48,8 +142,11 @@ def test_whole_numbers_of_a_unit_make_a_metre():
         (1.0, "N", r"width \(unit\) = 'N': must be one of m, mm, cm, km, in, ft. Correct the unit"),
         (1.0, "", r"width \(unit\) = '': must be one of m, "),
         (1.0, ["m"], r"width \(unit\) = \['m'\]: must be one of m, "),
-        ("two", "m", "width = 'two': must be a number. Use a point as decimal mark"),
+        ("two", "m", "width = 'two': must be a finite number. Use a point as decimal mark"),
         (None, "m", "width: must be a number"),
+        (True, "m", "width = True: must be a number"),
+        ([1.0], "m", r"width = \[1.0\]: must be a number"),
+        (10**400, "m", "width = 1000.*: must be a finite number"),
         (float("nan"), "m", "width = nan: must be a finite number"),
         (-1.0, "mm", "width = -0.001: must be a finite number above 0 m"),
     ],

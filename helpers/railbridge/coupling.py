@@ -125,15 +125,23 @@ class Coupling:
 
     # ---- the deck under the train
 
-    def station_loads(self, added: ForcesAdded) -> list[np.ndarray]:
-        """Return the load of every station while it is on the deck, shape (3 or 5, count)."""
+    def station_loads(self, added: ForcesAdded, margin: int = 0) -> list[np.ndarray]:
+        """Return the load of every station while it is on the deck, shape (3 or 5, count).
+
+        With `margin` so many samples before and behind, too; outside the car's window its first
+        and last load go on.
+        """
         result = []
         for c, own in zip(self.cars, added, strict=True):
             forces = c.rigid[..., c.window] + c.static[..., None] + own
             for station, matrix in zip(c.loads, c.load_matrix, strict=True):
                 start = int(self.loads.starts[station]) - c.window.start
                 stop = start + int(self.loads.counts[station])
-                result.append(np.tensordot(matrix, forces[..., start:stop], 2))
+                met = forces[..., start:stop]
+                if margin:
+                    around = np.arange(start - margin, stop + margin)
+                    met = forces[..., np.clip(around, 0, c.on_deck - 1)]
+                result.append(np.tensordot(matrix, met, 2))
         return result
 
     def deck_state(self, loads: list[np.ndarray]) -> DeckState:

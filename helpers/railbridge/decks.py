@@ -8,14 +8,23 @@ With mass-normalised shapes v_m, w_m (lateral, vertical) and theta_m (twist) eac
 
 with M_x about the deck axis. How loads travel and what wheels feel is in `guideways`.
 
-Section forces and reactions are recovered as ``sum S_m q_m`` plus the static correction of the
-modes left out, which is the static influence line under the present loads minus its modal part.
-They are the elastic ones: the stiffness-proportional part of the damping is not counted.
+A displacement, section force or reaction has the modal value S_m: what one unit of q_m gives. The
+modes left out answer the loads as if these stood still (the static influence line under the present
+loads, less its modal part, the *residual* r), and the part beta K of Rayleigh damping is viscosity
+inside the deck and its bearings, so its forces are carried by sections and bearings. A mode left
+out, with ``beta q' + q = f / omega^2`` far above the loads' frequencies, lags behind by beta. So
+
+    displacements    sum S_m q_m + r lagged by beta,
+    forces           sum S_m (q_m + beta q_m') + r,
+
+and the second is the static value less ``S_m / omega_m^2 (q'' + alpha q')``: inertia and outer
+damping, which Newton's law for the whole deck asks for. A damping given as one ratio for every
+mode tells nothing of where it acts: beta is then zero.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -24,12 +33,12 @@ import numpy as np
 from . import errors
 from .errors import InputError, Range, Remark, frozen
 from .guideways import Guideway, PiecewiseCubic
-from .response import SampledModes, sampled_modes
+from .response import SampledModes, lagged, sampled_modes
 
 __all__ = [
     "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
     "ModesOnly", "RATIO", "Recovery", "checked_damping", "damping_ratios", "rayleigh",
-    "rayleigh_ratio",
+    "rayleigh_ratio", "whole_group",
 ]  # fmt: skip
 
 SECTION_QUANTITIES = {
@@ -42,6 +51,8 @@ BEARING_QUANTITIES = {**REACTION_QUANTITIES, "moment_y": "N m", "moment_z": "N m
 """What a deck recovers of one bearing, with units; moments about the bearing itself."""
 
 
+_EQUAL = 1e-5
+"""Relative difference up to which frequencies count as equal: files give six digits."""
 RATIO = Range(least=0.0, most=0.5)
 """What a damping ratio may be, share of critical."""
 
@@ -80,6 +91,24 @@ def damping_ratios(damping: Sequence[float] | float, frequencies_hz: np.ndarray)
     if np.isscalar(damping):
         return np.full(len(frequencies_hz), damping)
     return rayleigh_ratio(*damping, frequencies_hz)
+
+
+def whole_group(frequencies_hz: np.ndarray, count: int) -> int:
+    """Return `count`, or the more modes it takes not to cut a group of equal frequencies.
+
+    Simple spans alike have equal frequencies, and only all of their modes together move each span.
+
+    Parameters
+    ----------
+    frequencies_hz : ndarray, shape (m,)
+        Ascending.
+    count : int
+    """
+    while 0 < count < len(frequencies_hz):
+        if frequencies_hz[count] > frequencies_hz[count - 1] * (1.0 + _EQUAL):
+            break
+        count += 1
+    return count
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,12 +179,10 @@ class ModesOnly:
         ]
         if errors.choice("quantity", quantity, SECTION_QUANTITIES) not in names:
             return None
-        share = (
-            self.shapes(np.array([x]))[0, :, names.index(quantity)]
-            / (2 * np.pi * self.frequencies_hz) ** 2
-        )
+        modal = self.shapes(np.array([x]))[0, :, names.index(quantity)]
+        share = modal / (2 * np.pi * self.frequencies_hz) ** 2
         shape = np.einsum("epmc,m->epc", self.shapes.coefficients, share)[:, :, None]
-        return Line(share, PiecewiseCubic(self.shapes.edges, shape), np.nan)
+        return Line(modal, PiecewiseCubic(self.shapes.edges, shape), np.nan)
 
     def reaction(self, quantity: str, support: float) -> Line | None:
         """Return None: modes alone tell no reaction."""
@@ -177,12 +204,16 @@ class History:
     values : dict of ndarray, shape (n,)
         By name; NaN where the deck has no such stiffness.
     units : dict of str
+    where : str
+    jumps : callable or None
+        From a name to times (s) and values between the samples, on both sides of what jumps.
     """
 
     time: np.ndarray
     values: dict[str, np.ndarray]
     units: dict[str, str]
     where: str = ""
+    jumps: Callable[[str], tuple[np.ndarray, np.ndarray]] | None = field(default=None, repr=False)
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self.values:
@@ -200,9 +231,22 @@ class History:
 
     def extreme(self, name: str) -> tuple[float, float]:
         """Return the value of largest magnitude, signed, and its time (s)."""
-        values = self[name]
-        i = int(np.argmax(np.abs(values)))
-        return float(values[i]), float(self.time[i])
+        return max(self.extremes(name), key=lambda found: abs(found[0]))
+
+    def extremes(self, name: str) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Return the smallest and the largest value, each with its time (s).
+
+        What jumps between two samples is seen on both sides of the jump. NaN without a finite
+        value.
+        """
+        time, values = self.time, self[name]
+        if not np.isfinite(values).any():
+            return (np.nan, np.nan), (np.nan, np.nan)
+        if self.jumps is not None:
+            more_time, more = self.jumps(name)
+            time, values = np.concatenate([time, more_time]), np.concatenate([values, more])
+        low, high = np.nanargmin(values), np.nanargmax(values)
+        return tuple((float(values[i]), float(time[i])) for i in (low, high))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -226,6 +270,9 @@ class Deck(Guideway):
         kg/m.
     bearings : tuple of (x, y, z)
         Places of the single bearings, m; empty where only bearing lines are known.
+    internal_damping : float
+        beta of Rayleigh damping, s: viscosity of the deck and its bearings, whose forces they
+        carry. Zero where only ratios are known.
     remarks : tuple of Remark
         What whoever made the deck doubts about it, or what it leaves out.
     """
@@ -237,6 +284,7 @@ class Deck(Guideway):
     recovery: Recovery | None = field(default=None, repr=False)
     mass_per_metre: float | None = None
     bearings: tuple[tuple[float, float, float], ...] = ()
+    internal_damping: float = 0.0
     remarks: tuple[Remark, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
@@ -269,19 +317,38 @@ class Deck(Guideway):
         return modal_force - 2 * self.damping_ratios[:, None] * omega * velocity - omega**2 * q
 
     def recovered(
-        self, line: Line | None, q: np.ndarray, modal_force: np.ndarray, static: np.ndarray
+        self,
+        line: Line,
+        q: np.ndarray,
+        velocity: np.ndarray,
+        modal_force: np.ndarray,
+        static: np.ndarray,
     ) -> np.ndarray:
-        """Return an output history: modal part plus the static correction of the modes left out.
+        """Return a section force or reaction: what the modes give, and the modes left out.
 
         Parameters
         ----------
-        line : Line or None
-            NaN is returned for None.
-        q, modal_force : ndarray, shape (modes, n)
+        line : Line
+        q, velocity, modal_force : ndarray, shape (modes, n)
         static : ndarray, shape (n,)
             The influence line under the present loads.
         """
-        if line is None:
-            return np.full(q.shape[1], np.nan)
+        elastic_and_viscous = q + self.internal_damping * velocity
+        return line.modal @ elastic_and_viscous + self._residual(line, modal_force, static)
+
+    def displaced(
+        self,
+        line: Line,
+        q: np.ndarray,
+        modal_force: np.ndarray,
+        static: np.ndarray,
+        time_step: float,
+    ) -> np.ndarray:
+        """Return a displacement or rotation; parameters as for `recovered`, and the step in s."""
+        residual = self._residual(line, modal_force, static)
+        return line.modal @ q + lagged(residual, self.internal_damping, time_step)
+
+    def _residual(self, line: Line, modal_force: np.ndarray, static: np.ndarray) -> np.ndarray:
+        """Return what the modes left out give when the loads stand still, shape (n,)."""
         omega2 = (2 * np.pi * self.frequencies_hz) ** 2
-        return line.modal @ q + static - (line.modal / omega2) @ modal_force
+        return static - (line.modal / omega2) @ modal_force

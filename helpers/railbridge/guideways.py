@@ -13,15 +13,19 @@ from functools import cached_property
 from math import perm
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
+from numpy.lib.stride_tricks import as_strided
 
 from . import errors
-from .errors import InputError
+from .errors import InputError, brief
 
 __all__ = ["COMPONENTS", "Guideway", "PiecewiseCubic", "Stations"]
 
 COMPONENTS = ("y", "z", "roll")
 """What a shape consists of: lateral, vertical, twist."""
+
+
+_LARGEST = 2**28
+"""Bytes of the windows that are described at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +40,8 @@ class PiecewiseCubic:
         Powers 0..3 of the local coordinate 0..1, for n functions of three components (y, z, roll),
         or of as many as there are.
     """
+
+    __repr__ = brief
 
     edges: np.ndarray
     coefficients: np.ndarray
@@ -154,28 +160,38 @@ class Stations:
         values, slopes = self.tables[self.which[stations[0]]]
         count = int(self.counts[stations].max())
         values, climb = values[:, :count], self.speed * slopes[:, :count]
-        q, velocity = _windows(state, self.starts[stations], count)
         moved, rate = np.empty((2, 3, len(stations), count))
-        for c, p in enumerate(self.components):
-            np.einsum("pt,pst->st", values[p], q[p], out=moved[c])
-            np.einsum("pt,pst->st", values[p], velocity[p], out=rate[c])
-            rate[c] += np.einsum("pt,pst->st", climb[p], q[p])
+        together = max(_LARGEST // (state[..., :1].nbytes * max(count, 1)), 1)
+        for first in range(0, len(stations), together):
+            some = slice(first, first + together)
+            q, velocity = _windows(state, self.starts[stations[some]], count)
+            for c, p in enumerate(self.components):
+                np.einsum("pt,pst->st", values[p], q[p], out=moved[c, some])
+                np.einsum("pt,pst->st", values[p], velocity[p], out=rate[c, some])
+                rate[c, some] += np.einsum("pt,pst->st", climb[p], q[p])
         return moved, rate
 
 
 def _windows(values: np.ndarray, starts: np.ndarray, count: int) -> np.ndarray:
     """Return `count` samples from each start on, shape (..., starts, count).
 
-    A view where starts are evenly spaced.
+    A view where starts are evenly spaced. No larger array is described than the result: one beyond
+    2^31 bytes, even if never made, stops a 32-bit Python.
     """
     missing = int(starts.max()) + count - values.shape[-1]
     if missing > 0:
         values = np.concatenate([values, np.zeros((*values.shape[:-1], missing))], axis=-1)
-    windows = sliding_window_view(values, count, axis=-1)
     steps = np.diff(starts)
     if len(starts) == 1 or (steps[0] > 0 and np.all(steps == steps[0])):
-        return windows[..., starts[0] : starts[-1] + 1 : steps[0] if len(steps) else 1, :]
-    return windows[..., starts, :]
+        *outer, sample = values.strides
+        step = int(steps[0]) if len(steps) else 1
+        return as_strided(
+            values[..., int(starts[0]) :],
+            (*values.shape[:-1], len(starts), count),
+            (*outer, step * sample, sample),
+            writeable=False,
+        )
+    return values[..., starts[:, None] + np.arange(count)]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -197,6 +213,8 @@ class Guideway:
         Rails above the deck axis, m. A lateral wheel force then twists the deck, M_x = -h F_y, and
         the rail moves sideways by v - h theta.
     """
+
+    __repr__ = brief
 
     name: str
     length: float
@@ -233,10 +251,9 @@ class Guideway:
                 )
             errors.choice("track_offset", track, self.tracks)
             return self.tracks[track]
-        limit = self.width / 2 if self.width else None
-        return errors.number(
-            "track_offset", track, least=None if limit is None else -limit, most=limit, unit="m"
-        )
+        if not self.width:
+            return errors.number("track_offset", track, unit="m")
+        return errors.place("track_offset", track, (-self.width / 2, self.width / 2))
 
     def stations(
         self, delays: np.ndarray, speed: float, time_step: float, samples: int

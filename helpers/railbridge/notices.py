@@ -4,13 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from .errors import InputError, InputWarning, Remark
+from .errors import InputError, InputWarning, Remark, ResultWarning
 from .plausibility import doubts
 from .results import Crossing
-from .settings import LEAD_IN_SECONDS
+from .settings import COARSE_SAMPLES_PER_PERIOD, LEAD_IN_SECONDS, highest_frequency
 from .trains import steady_forces
 
-__all__ = ["remarks"]
+__all__ = ["remarks", "unsettled"]
+
+FAR = 0.1
+"""Last change of the wheel forces from which on a given number of passes stopped far from the
+end."""
+GROWING = 0.01
+"""Smallest change that, larger than one before it, is called a divergence."""
+_STILL = 1e-3
+"""Motion of a deck's end, share of its largest, below which it is at rest."""
 
 
 def remarks(run: Crossing) -> tuple[Remark, ...]:
@@ -19,7 +27,20 @@ def remarks(run: Crossing) -> tuple[Remark, ...]:
     found += doubts(run.train, run.deck, run.track, run.settings)
     found += _only_modes(run)
     found += _transient(run)
+    found += _coarse(run)
+    found += _not_settled(run)
+    found += _pulling(run)
+    found += _lifting(run)
+    found += _moving_ends(run)
     return tuple(found)
+
+
+def unsettled(run: Crossing) -> bool:
+    """Whether a given number of passes, two or more, diverged or stopped far from the end."""
+    if run.converged is not False or len(run.changes) < 2:
+        return False
+    *before, last = run.changes
+    return not (last < FAR and (last < GROWING or last < min(before)))
 
 
 def _only_modes(run: Crossing) -> list[Remark]:
@@ -59,3 +80,100 @@ def _transient(run: Crossing) -> list[Remark]:
         "before the deck."
     )
     return [InputWarning("lead_in", text)]
+
+
+def _coarse(run: Crossing) -> list[Remark]:
+    highest, step = highest_frequency(run.deck), run.settings.time_step
+    if highest * step * COARSE_SAMPLES_PER_PERIOD <= 1.0:
+        return []
+    text = (
+        f"= {step:g} s leaves {1 / (highest * step):.2g} samples in a period of the deck's highest "
+        f"mode, {highest:.4g} Hz: accelerations may be off by 5 % and more. At most "
+        f"{1 / highest / COARSE_SAMPLES_PER_PERIOD:.2g} s, or fewer modes, would do."
+    )
+    return [ResultWarning("time_step", text)]
+
+
+def _not_settled(run: Crossing) -> list[Remark]:
+    """Say how far from the fixed point a given number of passes has ended."""
+    if run.converged is not False or run.settings.iterations is None:
+        return []
+    last = run.changes[-1]
+    text = f"= {run.iterations}: the last pass still changed the wheel forces by {last:.2g}"
+    if not unsettled(run):
+        return [Remark("iterations", text + " of their dynamic part.")]
+    least = int(np.nanargmin(run.changes))
+    if least < len(run.changes) - 1:
+        text += f", pass {least + 1} by {run.changes[least]:.2g}: they diverge"
+    return [ResultWarning("iterations", text + ". These numbers are not a solution.")]
+
+
+def _pulling(run: Crossing) -> list[Remark]:
+    """Name the wheel that pulls on the rail hardest."""
+    unloading = np.nan_to_num(run.wheel_unloading)
+    if not unloading.max() > 1.0:
+        return []
+    i, k = np.unravel_index(np.argmax(unloading), unloading.shape)
+    wheel, t = run.train.wheels[i], run.time[k]
+    others = int(np.sum(unloading.max(axis=1) > 1.0)) - 1
+    text = (
+        f"Wheel {wheel.number} of car {wheel.car} pulls on the rail by "
+        f"{run.wheel_forces[i, 1, k] / 1e3:.3g} kN (unloading {unloading[i, k]:.3g}) at "
+        f"t = {t:.4g} s, {_place(run.settings.speed * t - wheel.delay, run.deck.length)}"
+        + (f", and {others} other wheel{'s' * (others > 1)} pull too" if others else "")
+        + ": it would lift off, which is not computed."
+    )
+    return [ResultWarning("", text)]
+
+
+def _place(x: float, length: float) -> str:
+    if 0.0 <= x <= length:
+        return f"at x = {x:.4g} m"
+    return f"{-x:.4g} m before the deck" if x < 0.0 else f"{x - length:.4g} m behind the deck"
+
+
+def _lifting(run: Crossing) -> list[Remark]:
+    """Name the bearing that pulls the deck down hardest, the deck's own weight counted."""
+    deck, worst = run.deck, (0.0, 0.0, "")
+    if deck.recovery.lacks:
+        return []
+    if deck.bearings:
+        places = [
+            (
+                f"Bearing {number} at x = {x:g}, y = {y:g} m",
+                deck.recovery.bearing(number, "force_z"),
+            )
+            for number, (x, y, _) in enumerate(deck.bearings, start=1)
+        ]
+    else:
+        places = [
+            (f"The bearing line at x = {x:g} m", deck.recovery.reaction("force_z", x))
+            for x in deck.supports
+        ]
+    lines = {where: line for where, line in places if line is not None}
+    history = run.recovered(lines, dict.fromkeys(lines, "N"), self_weight=True)
+    for where in lines:
+        (low, t), (high, _) = history.extremes(where)
+        if low < min(worst[0], -1e-6 * abs(high)):
+            worst = low, t, where
+    if not worst[2]:
+        return []
+    text = (
+        f"{worst[2]} would have to hold the deck down by {-worst[0] / 1e3:.3g} kN at "
+        f"t = {worst[1]:.4g} s, its own weight counted: it would lift, which is not computed."
+    )
+    return [ResultWarning("", text)]
+
+
+def _moving_ends(run: Crossing) -> list[Remark]:
+    """Say that a wheel steps at full weight onto an end that moves."""
+    deck = run.deck
+    places = np.linspace(0.0, deck.length, 101)
+    vertical = np.abs(deck.shapes(places)[:, :, 1]).max(axis=1)
+    if not max(vertical[0], vertical[-1]) > _STILL * vertical.max():
+        return []
+    text = (
+        "An end of the deck moves (elastic bearings or an overhang): wheels step on or off there "
+        "at full weight, so accelerations are not to be trusted."
+    )
+    return [ResultWarning("", text)]

@@ -23,11 +23,11 @@ import numpy as np
 from scipy.linalg import eig, expm, matrix_balance
 from scipy.signal import lfilter, lsim
 
-from .errors import number
+from .errors import brief, number
 
 __all__ = [
-    "LinearSystem", "SampledModes", "SampledResponse", "oscillator", "ramp_coefficients",
-    "sampled_modes", "second_order_system",
+    "LinearSystem", "SampledModes", "SampledResponse", "lagged", "moved_on", "oscillator",
+    "ramp_coefficients", "sampled_modes", "second_order_system",
 ]  # fmt: skip
 
 _WORST_CONDITION = 1e6
@@ -69,6 +69,22 @@ def ramp_coefficients(
     return np.exp(x), time_step * (phi1 - phi2), time_step * phi2
 
 
+def lagged(u: np.ndarray, lag: float, time_step: float) -> np.ndarray:
+    """Return y of ``lag y' + y = u`` from rest, for u that is linear between samples, shape (n,).
+
+    Parameters
+    ----------
+    u : ndarray, shape (n,)
+    lag, time_step : float
+        s; without a lag u itself is returned.
+    """
+    if lag == 0.0:
+        return u
+    a, b0, b1 = (c.real[0] for c in ramp_coefficients(np.array([-1.0 / lag]), time_step))
+    b0, b1 = b0 / lag, b1 / lag
+    return lfilter([b1, b0], [1.0, -a], u, zi=-b1 * u[:1])[0]
+
+
 @dataclass(frozen=True)
 class LinearSystem:
     """``x' = A x + B u, y = C x``.
@@ -79,6 +95,8 @@ class LinearSystem:
     b : ndarray, shape (n, p)
     c : ndarray, shape (q, n)
     """
+
+    __repr__ = brief
 
     a: np.ndarray
     b: np.ndarray
@@ -155,6 +173,8 @@ class SampledResponse:
         coincide.
     """
 
+    __repr__ = brief
+
     time_step: float
     system: LinearSystem
     coefficients: tuple[np.ndarray, np.ndarray, np.ndarray] | None
@@ -218,6 +238,8 @@ class SampledModes:
         Modes that do not swing, by number from 0; the general response runs them.
     """
 
+    __repr__ = brief
+
     coefficients: tuple[np.ndarray, np.ndarray, np.ndarray]
     poles: np.ndarray
     others: dict[int, SampledResponse]
@@ -256,6 +278,47 @@ def sampled_modes(omega: np.ndarray, ratio: np.ndarray, time_step: float) -> Sam
         int(m): oscillator(omega[m], ratio[m]).sampled(time_step) for m in np.flatnonzero(~swings)
     }
     return SampledModes(ramp_coefficients(poles, time_step), poles, others)
+
+
+def moved_on(
+    omega: np.ndarray,
+    ratio: np.ndarray,
+    state: tuple[np.ndarray, np.ndarray],
+    force: tuple[np.ndarray, np.ndarray],
+    span: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
+    r"""Return where modes stand a while later, for times that are not those of samples.
+
+    With both poles, ``s1 - s2`` apart, ``z_i' = s_i z_i + f`` gives ``q = (z1 - z2) / (s1 - s2)``
+    and ``q' = (s1 z1 - s2 z2) / (s1 - s2)``.
+
+    Parameters
+    ----------
+    omega, ratio : ndarray, shape (modes,)
+    state : (q, q'), each of shape (modes, n)
+        n starts, each with its own end.
+    force : (at the start, at the end), each of shape (modes, n)
+        Linear between.
+    span : ndarray, shape (n,)
+        s.
+
+    Returns
+    -------
+    q, q' : ndarray, shape (modes, n)
+    """
+    q, velocity = state
+    # Equal poles would divide by nothing: this far apart they cost eight digits of sixteen.
+    apart = np.sqrt(np.asarray(ratio, dtype=complex) ** 2 - 1.0)
+    apart = np.where(np.abs(apart) < 1e-4, 1e-4j, apart)
+    poles = omega * (-ratio + apart), omega * (-ratio - apart)
+    z = []
+    for own, other in (poles, poles[::-1]):
+        a, b0, b1 = ramp_coefficients(own[:, None] * span, 1.0)
+        start = velocity - other[:, None] * q
+        z.append(a * start + span * (b0 * force[0] + b1 * force[1]))
+    between = (poles[0] - poles[1])[:, None]
+    rates = poles[0][:, None] * z[0] - poles[1][:, None] * z[1]
+    return ((z[0] - z[1]) / between).real, (rates / between).real
 
 
 def second_order_system(

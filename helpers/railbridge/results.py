@@ -5,9 +5,9 @@ Displacements, section forces, reactions, wheel forces, spectra, extremes and en
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from .decks import (
 from .errors import InputError, frozen
 from .settings import STATIONS, Settings
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
+from .statics import MovingLoads, static_extremes
 from .tracks import Track
 from .trains import CONDENSED, AnyTrain
 
@@ -32,6 +33,9 @@ __all__ = ["ENVELOPE", "Crossing", "Deviations", "Envelope"]
 ENVELOPE = ("displacement_z", "acceleration_z", "moment_vertical", "moment_lateral", "torsion")
 """Quantities that have an envelope along the deck."""
 
+_DISPLACEMENTS = {
+    q: unit for q, unit in SECTION_QUANTITIES.items() if q.startswith(("displacement", "rotation"))
+}
 _FORCES = tuple(q for q in SECTION_QUANTITIES if q.startswith(("moment", "torsion", "shear")))
 
 
@@ -70,11 +74,22 @@ class Envelope:
     time : ndarray, shape (n,)
         s.
     values : ndarray, shape (places, n)
+    jumps : tuple of callable
+        For each place times (s) and values between the samples, on both sides of what jumps;
+        empty where nothing does.
     """
 
     x: np.ndarray
     time: np.ndarray
     values: np.ndarray = field(repr=False)
+    jumps: tuple[Callable[[], tuple[np.ndarray, np.ndarray]], ...] = field(default=(), repr=False)
+
+    def at(self, place: int) -> History:
+        """Return the history at one of the places, from 0, under the name ``value``."""
+        own = self.jumps[place] if self.jumps else None
+        jumps = None if own is None else lambda _: own()
+        values = {"value": self.values[place]}
+        return History(self.time, values, {"value": ""}, f"x = {self.x[place]:g} m", jumps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,9 +230,24 @@ class Crossing:
 
     @cached_property
     def wheel_unloading(self) -> np.ndarray:
-        """1 - force / static force of every wheel, shape (wheels, n); 1: it would lift."""
-        static = np.array([wheel.static_load for wheel in self.train.wheels])
+        """1 - force / static force of every wheel, shape (wheels, n); 1: it would lift.
+
+        NaN for a wheel that carries nothing.
+        """
+        static = np.array([wheel.static_load or np.nan for wheel in self.train.wheels])
         return 1.0 + self.wheel_forces[:, 1] / static[:, None]
+
+    @cached_property
+    def on_deck(self) -> np.ndarray:
+        """Whether every wheel is on the deck, shape (wheels, n)."""
+        axles, result = self.coupling.axles, []
+        sample = np.arange(len(self.time))
+        for c in self.coupling.cars:
+            for axle, station in zip(c.car.axles, c.axles, strict=True):
+                since = sample - axles.starts[station]
+                own = (since >= 0) & (since < axles.counts[station])
+                result += [own] * len(axle.wheels)
+        return frozen(np.array(result))
 
     @cached_property
     def body_accelerations(self) -> np.ndarray:
@@ -268,14 +298,15 @@ class Crossing:
     # ---- the deck's motion
 
     @cached_property
-    def _loads(self) -> list[np.ndarray]:
-        return self.coupling.station_loads(self.passes[self.iteration])
+    def _loads(self) -> MovingLoads:
+        known = self.states.get(self.iteration)
+        return MovingLoads(self.coupling, self.passes[self.iteration], known)
 
     @property
     def state(self) -> DeckState:
         """The deck's modal state at this iteration, computed when it is first asked for."""
         if self.iteration not in self.states:
-            self.states[self.iteration] = self.coupling.deck_state(self._loads)
+            self.states[self.iteration] = self._loads.state
         return self.states[self.iteration]
 
     @property
@@ -283,7 +314,7 @@ class Crossing:
         s = self.state
         return self.deck.acceleration(s.q, s.velocity, s.modal_force)
 
-    def displacement(self, x: float, self_weight: bool = False) -> History:
+    def displacement(self, x: float, self_weight: bool = False, kept_only: bool = False) -> History:
         """Return displacement_y, displacement_z (m) and rotation_x (rad) of the deck axis at x (m).
 
         Parameters
@@ -292,14 +323,34 @@ class Crossing:
             m along the deck.
         self_weight : bool
             Whether the sag under the deck's own weight is added.
+        kept_only : bool
+            Whether the modes left out are not counted: what the wheels feel.
         """
-        history = self._motion("displacement", x, self.state.q, ("m", "m", "rad"))
+        x = errors.place("x", x, (0.0, self.deck.length))
+        recovery = self.deck.recovery
+        if self_weight and recovery.lacks:
+            raise InputError("deck", self.deck.name, recovery.lacks)
+        if kept_only:
+            values = dict(zip(_DISPLACEMENTS, self._moving(x, self.state.q), strict=True))
+        else:
+            lines = [recovery.section(name, x) for name in _DISPLACEMENTS]
+            values = dict(zip(_DISPLACEMENTS, self._displaced(lines), strict=True))
         if self_weight:
-            line = self.deck.recovery.section("displacement_z", x)
-            if self.deck.recovery.lacks:
-                raise InputError("deck", self.deck.name, self.deck.recovery.lacks)
-            history.values["displacement_z"] += line.self_weight
-        return history
+            line = recovery.section("displacement_z", x)
+            values["displacement_z"] = values["displacement_z"] + line.self_weight
+        return History(self.time, values, _DISPLACEMENTS, f"x = {x:g} m")
+
+    def _displaced(self, lines: Sequence[Line | None]) -> list[np.ndarray]:
+        """Return the displacements that lines describe, NaN for None."""
+        known = [line for line in lines if line is not None]
+        state, step = self.state, self.settings.time_step
+        statics = iter(self._loads.of_lines(known))
+        return [
+            np.full(len(self.time), np.nan)
+            if line is None
+            else self.deck.displaced(line, state.q, state.modal_force, next(statics), step)
+            for line in lines
+        ]
 
     def velocity(self, x: float) -> History:
         """Return velocity_y, velocity_z (m/s), velocity_roll (rad/s) of the deck axis at x (m)."""
@@ -308,21 +359,26 @@ class Crossing:
     def acceleration(self, x: float) -> History:
         """Return acceleration_y, acceleration_z (m/s2) and acceleration_roll (rad/s2) at x (m).
 
-        Wrong when: the cut-off, the highest frequency of the deck's modes kept, is not stated with
-        it; accelerations do not converge with the number of modes.
+        Of the modes kept: state the cut-off, the highest of their frequencies, with it. Under
+        Rayleigh damping it settles with more modes, under one ratio for all slowly, and undamped
+        not at all.
         """
         units = "m/s2", "m/s2", "rad/s2"
         return self._motion("acceleration", x, self._modal_acceleration, units)
 
     def _motion(self, kind: str, x: float, modal: np.ndarray, units: tuple[str, ...]) -> History:
-        x = errors.number("x", x, least=0.0, most=self.deck.length, unit="m")
-        shape = self.deck.shapes(np.array([x]))[0]
-        rolls = "rotation_x" if kind == "displacement" else f"{kind}_roll"
-        names = [f"{kind}_y", f"{kind}_z", rolls]
-        values = {}
-        for c, (name, has) in enumerate(zip(names, self.deck.has.values(), strict=True)):
-            values[name] = shape[:, c] @ modal if has else np.full(modal.shape[1], np.nan)
+        x = errors.place("x", x, (0.0, self.deck.length))
+        names = [f"{kind}_y", f"{kind}_z", f"{kind}_roll"]
+        values = dict(zip(names, self._moving(x, modal), strict=True))
         return History(self.time, values, dict(zip(names, units, strict=True)), f"x = {x:g} m")
+
+    def _moving(self, x: float, modal: np.ndarray) -> list[np.ndarray]:
+        """Return what the modes kept give at x (m): y, z and roll, NaN where the deck has none."""
+        shape = self.deck.shapes(np.array([x]))[0]
+        nothing = np.full(modal.shape[1], np.nan)
+        return [
+            shape[:, c] @ modal if has else nothing for c, has in enumerate(self.deck.has.values())
+        ]
 
     # ---- forces in and below the deck
 
@@ -339,8 +395,9 @@ class Crossing:
             A deck of which only modes are known.
         """
         self._refuse_lacks()
+        x = errors.place("x", x, (0.0, self.deck.length))
         lines = {name: self.deck.recovery.section(name, x) for name in _FORCES}
-        return self._recovered(lines, SECTION_QUANTITIES, self_weight, f"x = {x:g} m")
+        return self.recovered(lines, SECTION_QUANTITIES, self_weight, f"x = {x:g} m")
 
     def reactions(self, self_weight: bool = False) -> dict[float, History]:
         """Return the forces of every bearing line on the deck, by place (m).
@@ -357,7 +414,7 @@ class Crossing:
         for support in self.deck.supports:
             lines = {n: self.deck.recovery.reaction(n, support) for n in REACTION_QUANTITIES}
             where = f"bearing at {support:g} m"
-            result[support] = self._recovered(lines, REACTION_QUANTITIES, self_weight, where)
+            result[support] = self.recovered(lines, REACTION_QUANTITIES, self_weight, where)
         return result
 
     def bearing_forces(self, self_weight: bool = False) -> dict[int, History]:
@@ -379,24 +436,46 @@ class Crossing:
         for number, (x, y, z) in enumerate(self.deck.bearings, start=1):
             lines = {n: self.deck.recovery.bearing(number, n) for n in BEARING_QUANTITIES}
             where = f"bearing {number} at x = {x:g}, y = {y:g}, z = {z:g} m"
-            result[number] = self._recovered(lines, BEARING_QUANTITIES, self_weight, where)
+            result[number] = self.recovered(lines, BEARING_QUANTITIES, self_weight, where)
         return result
 
     def _refuse_lacks(self) -> None:
         if self.deck.recovery.lacks:
             raise InputError("deck", self.deck.name, self.deck.recovery.lacks)
 
-    def _recovered(
-        self, lines: dict[str, Line | None], units: dict[str, str], self_weight: bool, where: str
+    def recovered(
+        self,
+        lines: dict[str, Line | None],
+        units: dict[str, str],
+        self_weight: bool = False,
+        where: str = "",
     ) -> History:
-        values = {}
-        for name, line in lines.items():
-            static = self.static(line) if line is not None else None
-            state = self.state
-            values[name] = self.deck.recovered(line, state.q, state.modal_force, static)
-            if self_weight and line is not None:
-                values[name] = values[name] + line.self_weight
-        return History(self.time, values, {n: units[n] for n in lines}, where)
+        """Return the section forces or reactions that lines of the deck's `recovery` describe.
+
+        Parameters
+        ----------
+        lines : dict
+            By name; NaN is returned for None.
+        units : dict of str
+            Of every name.
+        self_weight : bool
+        where : str
+        """
+        state, loads = self.state, self._loads
+        known = {name: line for name, line in lines.items() if line is not None}
+        statics = dict(zip(known, loads.of_lines(list(known.values())), strict=True))
+        values = {name: np.full(len(self.time), np.nan) for name in lines}
+        weight = {name: line.self_weight if self_weight else 0.0 for name, line in known.items()}
+        for name, line in known.items():
+            values[name] = weight[name] + self.deck.recovered(
+                line, state.q, state.velocity, state.modal_force, statics[name]
+            )
+
+        def jumps(name: str) -> tuple[np.ndarray, np.ndarray]:
+            time, met = loads.at_jumps(known[name])
+            return time, met + weight[name]
+
+        return History(self.time, values, {n: units[n] for n in lines}, where, jumps)
 
     # ---- along the deck
 
@@ -418,21 +497,23 @@ class Crossing:
         errors.choice("quantity", quantity, ENVELOPE)
         if x is None:
             x = np.linspace(0.0, self.deck.length, STATIONS).round(9)
-        x = errors.numbers("x", x, least=0.0, most=self.deck.length, unit="m")
+        x = errors.places("x", x, (0.0, self.deck.length))
         deck, state = self.deck, self.state
-        if quantity in ("displacement_z", "acceleration_z"):
+        if quantity == "acceleration_z":
             if not deck.has["z"]:
                 return None
-            modal = state.q if quantity == "displacement_z" else self._modal_acceleration
-            return Envelope(x, self.time, deck.shapes(x)[:, :, 1] @ modal)
+            return Envelope(x, self.time, deck.shapes(x)[:, :, 1] @ self._modal_acceleration)
         lines = [deck.recovery.section(quantity, place) for place in x]
         if lines[0] is None:
             return None
-        modal = np.array([line.modal for line in lines])
-        values = modal @ state.q
-        values -= (modal / (2 * np.pi * deck.frequencies_hz) ** 2) @ state.modal_force
-        values += self.statics(lines)
-        return Envelope(x, self.time, values)
+        if quantity == "displacement_z":
+            return Envelope(x, self.time, np.array(self._displaced(lines)))
+        values = [
+            deck.recovered(line, state.q, state.velocity, state.modal_force, static)
+            for line, static in zip(lines, self._loads.of_lines(lines), strict=True)
+        ]
+        jumps = tuple(partial(self._loads.at_jumps, line) for line in lines)
+        return Envelope(x, self.time, np.array(values), jumps)
 
     # ---- statics
 
@@ -441,62 +522,8 @@ class Crossing:
 
         Shape (n,).
         """
-        return self.statics([line])[0]
-
-    def statics(self, lines: Sequence[Line]) -> np.ndarray:
-        """Return `static` of several influence lines, shape (lines, n)."""
-        total = np.zeros((len(lines), len(self.time)))
-        stations = self.coupling.loads
-        for which in range(len(stations.tables)):
-            # Stations that meet the samples alike share the line's values.
-            members = np.flatnonzero(stations.which == which)
-            longest = members[np.argmax(stations.counts[members])]
-            instants = self.time[stations.starts[longest] :][: stations.counts[longest]]
-            x = self.settings.speed * instants - self.coupling.load_delays[longest]
-            x = np.clip(x, 0.0, self.deck.length)
-            values = np.array([line.influence(x)[:, 0].T for line in lines])
-            couples = len(self._loads[members[0]]) == 5
-            if couples:
-                slopes = np.array([line.influence(x, 1)[:, 0].T for line in lines])
-            for station in members:
-                load, count = self._loads[station], stations.counts[station]
-                part = total[:, stations.starts[station] :][:, :count]
-                for c in range(3):
-                    part += values[:, c, :count] * load[c]
-                if couples:
-                    part += slopes[:, 0, :count] * load[4] - slopes[:, 1, :count] * load[3]
-        return total
+        return self._loads.of_lines([line])[0]
 
     def static_extremes(self, line: Line) -> tuple[float, float]:
-        """Return the smallest and largest value while the static axle loads move over, V -> 0.
-
-        Zero at most and zero at least. Places of the train: steps of 1/500 of the deck, and every
-        axle just before and behind every end of the line's pieces that may be a kink or a jump, so
-        that peaks are met exactly.
-        """
-        length, offset = self.deck.length, self.settings.track_offset
-        axles = self.train.placed_axles
-        delays = np.array([axle.delay for axle in axles])
-        loads = -np.array(
-            [
-                [0.0, axle.static_load, sum(w.static_load * (offset + w.y) for w in axle.wheels)]
-                for axle in axles
-            ]
-        )
-        grid = np.linspace(0.0, length, 501)
-        edges = line.influence.edges
-        near = np.concatenate([edges - 1e-9 * length, edges + 1e-9 * length])
-        near = near[(near >= 0.0) & (near <= length)]
-        # The peaks of the line itself decide: only its kinks next to the largest values matter.
-        size = np.abs(line.influence(near)[:, 0, 1:]).max(axis=1)
-        near = near[np.argsort(size)[-8:]]
-        first = np.arange(0.0, length + delays.max() + grid[1], grid[1])
-        first = np.unique(np.concatenate([first, (delays[:, None] + near).ravel()]))
-        total = np.zeros(len(first))
-        for delay, load in zip(delays, loads, strict=True):
-            x = first - delay
-            on = (x >= 0.0) & (x <= length)
-            total[on] += line.influence(x[on])[:, 0] @ load
-        noise = 1e-12 * float(np.abs(loads).max() * np.abs(line.influence(grid)).max())
-        low, high = float(total.min()), float(total.max())
-        return (low if low < -noise else 0.0), (high if high > noise else 0.0)
+        """Return the extremes while the static axle loads move over; see `static_extremes`."""
+        return static_extremes(self.train, self.settings.track_offset, line)

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .errors import brief
+
 __all__ = ["Spectrum", "amplitude_spectrum", "deviation_percent"]
 
 BINS = 60
@@ -25,6 +27,8 @@ class Spectrum:
     unit : str
         Unit of the amplitude.
     """
+
+    __repr__ = brief
 
     frequency: np.ndarray
     amplitude: np.ndarray

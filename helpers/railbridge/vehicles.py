@@ -24,7 +24,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from . import errors
-from .errors import InputError, Range, check_fields, frozen, within
+from .errors import InputError, Range, brief, check_fields, frozen, within
 from .response import LinearSystem, second_order_system
 from .units import G
 
@@ -162,6 +162,8 @@ class Modes:
         The freedom that carries most of the kinetic energy.
     """
 
+    __repr__ = brief
+
     frequencies_hz: np.ndarray
     damping_ratios: np.ndarray
     shapes: np.ndarray
@@ -192,8 +194,9 @@ class Vehicle:
         Car body, bogies.
     springs : tuple of Spring
         Suspension and contacts.
-    length : float
-        m over couplers; the default distance between cars.
+    length : float, optional
+        m over couplers; the default distance between cars. May be left out where trains are given
+        their car spacing.
     static_wheelset_mass : float
         kg of one wheelset, carried straight by the rail. Only its weight counts. Wrong above the
         frequency where the wheelset's inertia force reaches the contact force, about
@@ -206,10 +209,12 @@ class Vehicle:
         holds, or a wheel lifted off the rail at rest.
     """
 
+    __repr__ = brief
+
     name: str
     bodies: tuple[Body, ...]
     springs: tuple[Spring, ...]
-    length: Annotated[float, Range(above=0.0, unit="m")]
+    length: Annotated[float, Range(above=0.0, unit="m")] | None = None
     static_wheelset_mass: Annotated[float, Range(least=0.0, unit="kg")] = 0.0
     labels: tuple[str, ...] = field(init=False, default=())
 
@@ -298,6 +303,21 @@ class Vehicle:
     def axles(self) -> tuple[Axle, ...]:
         """Wheels that stand side by side, front to back."""
         return self._standing[0]
+
+    @property
+    def front(self) -> float:
+        """The front end, m ahead of mid-length.
+
+        Raises
+        ------
+        InputError
+            A vehicle without a length.
+        """
+        if self.length is None:
+            allowed = f"is the irregularity at the car's front end, and {self.name} has no length"
+            remedy = "Give the vehicle its length, or use 'wheels'"
+            raise InputError("excitation", "car", allowed, remedy)
+        return self.length / 2
 
     @property
     def weight(self) -> float:

@@ -245,6 +245,7 @@ def test_rigid_where_no_stiffness_is_given():
 def test_section_file_and_stiffnesses_make_the_same_deck():
     e, g = 35e9, 35e9 / 2.4
     common = {"length": 36.0, "damping": {"ratio": 0.03, "frequencies_hz": [3.307, 16.30]}}
+    common["modes"] = 20
     stiff = rb.deck_from_table("a", {
         **common, "mass": 12e3, "bending_stiffness_vertical": e * 2.553,
         "bending_stiffness_lateral": e * 25.53,
@@ -252,6 +253,7 @@ def test_section_file_and_stiffnesses_make_the_same_deck():
         "polar_inertia": 2500 * (2.553 + 25.53),
     })  # fmt: skip
     shipped = rb.deck("viaduct36")
+    assert len(shipped.frequencies_hz) == len(stiff.frequencies_hz) == 20
     assert stiff.frequencies_hz == pytest.approx(shipped.frequencies_hz, rel=1e-12)
     assert stiff.damping_ratios == pytest.approx(shipped.damping_ratios, rel=1e-12)
 
@@ -344,3 +346,20 @@ def test_bearings_and_spans_too_close_are_refused():
 def test_damping_of_a_deck_is_checked(damping):
     with pytest.raises(rb.InputError, match=r"^damping"):
         SIMPLE.deck(3, damping)
+
+
+@given(
+    lengths=st.lists(st.integers(50, 600), min_size=1, max_size=6),
+    continuous=st.booleans(),
+)
+@settings(max_examples=60, deadline=None)
+def test_spans_in_decimals_end_where_their_sum_is_written(lengths, continuous):
+    """12.1 + 12.2 + 12.3 is 36.599999999999994 in the computer, and 36.6 for everybody else."""
+    ends = [sum(lengths[:i]) / 10 for i in range(len(lengths) + 1)]
+    bearings = tuple(rb.Bearing(x) for x in ends)
+    spans = tuple(length / 10 for length in lengths)
+    beam = rb.Beam("decimals", spans, 12e3, 1.2e10, bearings=bearings, continuous=continuous)
+    assert beam.length == pytest.approx(ends[-1], rel=1e-15)
+    assert sorted({b.x for b in beam.bearings}) == beam.required_nodes.tolist()
+    assert beam.mesh.edges[-1] == beam.length
+    assert len(beam.mesh.nodes) - len(beam.mesh.edges) == len(beam.joints)

@@ -13,6 +13,7 @@ import tomllib
 import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -39,7 +40,7 @@ vehicle = "xia2000_planar"
 vertical = { kind = "harmonic", amplitude = 1e-3, wavelength = 10.0 }
 [run]
 speed = 40.0
-time_step = 5e-3
+time_step = 4e-3
 lead_in = 0.0
 tail = 0.1
 tolerance = 1e-3
@@ -239,7 +240,7 @@ def test_what_is_no_case_file_is_refused(here, capsys, content, words):
         ("wavelength = 10.0", "wavelength = 0.0", "track.vertical.wavelength = 0.0"),
         ('"harmonic"', '"harmonc"', "track.vertical.kind = 'harmonc'"),
         ("points = [6.0]", "points = [6.0, 60.0]", "output.points[2] = 60.0"),
-        ("time_step = 5e-3", "time_step = 5e-9", "GB"),
+        ("time_step = 4e-3", "time_step = 4e-9", "GB"),
         ("speed = 40.0", "speed = 1e-6", "run.speed = 1e-06: this run"),
     ],
 )
@@ -443,6 +444,57 @@ def test_a_warning_is_one_line(here, capsys):
     assert err[0].startswith("railbridge: warning: run.lead_in")
 
 
+SOFT = "deck.bending_stiffness_vertical gives a first vertical frequency of 0.273 Hz, bridges of 12"
+
+
+def test_a_doubt_is_one_warning_before_it_is_computed_and_stands_in_the_summary(here, capsys):
+    changed("5e9", "5e6")
+    code, _, err = command(capsys, "run", "case.toml", "--out", "r", "-q")
+    assert (code, len(err)) == (0, 1)
+    assert err[0].startswith(f"railbridge: warning: {SOFT}") and "given in kN m2" in err[0]
+    remarks = json.loads(Path("r/summary.json").read_text(encoding="utf-8"))["remarks"]
+    assert f"railbridge: warning: {remarks[0]}" == err[0]
+    both = ["--set", "run.lead_in=5.0"]
+    code, _, err = command(capsys, "run", "case.toml", "--out", "r", "-q", *both)
+    assert [line.split()[2] for line in err] == ["deck.bending_stiffness_vertical", "run.lead_in"]
+
+
+def test_a_doubt_is_said_where_nothing_converges(here, capsys):
+    changed("5e9", "5e6")
+    code, _, err = command(
+        capsys, "run", "case.toml", "--out", "r", "--set", "run.max_iterations=1"
+    )
+    assert code == 3
+    assert err[0].startswith(f"railbridge: warning: {SOFT}") and "not converged" in err[-1]
+    with pytest.warns(rb.errors.InputWarning, match="kN m2"), pytest.raises(rb.NotConvergedError):
+        rb.case("case.toml", {"run.max_iterations": 1}).run()
+
+
+def test_check_says_doubts_too(here, capsys):
+    changed("5e9", "5e6")
+    code, out, err = command(capsys, "check", "case.toml")
+    assert (code, len(out), len(err)) == (0, 1, 1)
+    assert "can be run" in out[0] and err[0].startswith(f"railbridge: warning: {SOFT}")
+
+
+def test_strict_refuses_doubts_and_computes_nothing(here, capsys, monkeypatch):
+    changed("5e9", "5e6")
+    monkeypatch.setattr(rb.Case, "compute", lambda *_: pytest.fail("computed"))
+    for arguments in (("run", "case.toml", "--out", "deep/r"), ("check", "case.toml")):
+        line = refused(capsys, *arguments, "--strict")
+        assert line.startswith(f"railbridge: {SOFT}")
+    assert os.listdir() == ["case.toml"]
+    two = ["--set", "run.speed=118"]
+    code, out, err = command(capsys, "check", "case.toml", "--strict", *two)
+    assert (code, out, len(err)) == (2, [], 2) and "424.8 km/h" in err[1]
+
+
+def test_strict_lets_pass_what_is_not_doubted(here, capsys):
+    code, out, err = command(capsys, "check", "case.toml", "--strict")
+    assert (code, len(out), err) == (0, 1, [])
+    assert command(capsys, "run", "case.toml", "--out", "r", "-q", "--strict") == (0, [], [])
+
+
 def test_files_of_a_case_are_found_beside_it(here, capsys, monkeypatch):
     vehicles = shelf.data_file("vehicles", "xia2000_planar").read_text(encoding="utf-8")
     deck = (
@@ -476,6 +528,82 @@ SECTION = {
 }  # fmt: skip
 NOTCH = {"wheels": [[1, 1]], "circumference": 2.7, "offset": 1.0, "depth": 1e-3, "length": 0.5}
 HARMONIC = {"kind": "harmonic", "amplitude": 1e-3, "wavelength": 10.0}
+
+
+def test_the_headline_names_the_point_that_moves_most(here, capsys):
+    given = ("run", "case.toml", "--out", "out", "--set", "output.points=[1.0, 6.0, 11.0]")
+    code, _, err = command(capsys, *given)
+    points = json.loads(Path("out/summary.json").read_text())["points"]
+    worst = min(points, key=lambda p: p["displacement_z"]["min"]["value"])
+    value = worst["displacement_z"]["min"]["value"] * 1e3
+    assert code == 0 and worst["x"] == 6.0
+    assert f"largest displacement, at x = 6 m is {value:.4g} mm" in err[-1]
+
+
+def test_the_headline_of_a_point_at_the_support_says_so(here, capsys):
+    given = ("run", "case.toml", "--out", "out", "--set", "output.points=[0.0]")
+    assert ", displacement at x = 0 m is 0 mm" in command(capsys, *given)[2][-1]
+
+
+def test_paths_of_changes_are_relative_to_the_case_like_those_in_it(here, capsys, monkeypatch):
+    planar = shelf.data_file("vehicles", "xia2000_planar").read_text(encoding="utf-8")
+    (here / "cases" / "cars").mkdir(parents=True)
+    (here / "cases" / "cars" / "mine.toml").write_text(planar, encoding="utf-8")
+    (here / "cases" / "case.toml").write_text(CASE, encoding="utf-8")
+    case, change = "cases/case.toml", "train.vehicle=cars/mine.toml"
+    code, out, _ = command(capsys, "check", case, "--set", change)
+    assert code == 0 and "can be run" in out[0]
+    found = rb.case(case, {"train.vehicle": "cars/mine.toml"})
+    assert found.get("train.vehicle") == str(Path("cases/cars/mine.toml"))
+    line = refused(capsys, "check", case, "--set", "train.vehicle=cases/cars/mine.toml")
+    assert "no such file" in line
+    absolute = f"train.vehicle={here / 'cases' / 'cars' / 'mine.toml'}"
+    assert command(capsys, "check", case, "--set", absolute)[0] == 0
+    # A shipped case stands nowhere that the user knows: there it is the folder one is in.
+    monkeypatch.chdir(here / "cases")
+    assert command(capsys, "check", "paper", "--set", "train.vehicle=cars/mine.toml")[0] == 0
+
+
+HOSTILE = "\\u001b[31mred\\u0007\\u009b2J\\u202e"
+"""In TOML: a colour, a bell, clearing of the screen and a change of direction."""
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        CASE.replace("[train]", f'"{HOSTILE}" = 1\n[train]'),
+        CASE.replace('"xia2000_planar"', f'"{HOSTILE}"'),
+        CASE.replace('"xia2000_planar"', f'"{HOSTILE}.csv"'),
+        CASE.replace("tail = 0.1", f'tail = "{HOSTILE}"'),
+        CASE.replace('vehicle = "xia2000_planar"', f'vehicle = "xia2000"\ntrack = "{HOSTILE}"'),
+        CASE.replace('"harmonic"', f'"{HOSTILE}"'),
+    ],
+)
+def test_escapes_in_names_are_shown_not_obeyed(here, capsys, content):
+    Path("case.toml").write_text(content, encoding="utf-8")
+    line = refused(capsys, "check", "case.toml")
+    # In a key as JSON writes it, in a value as Python does.
+    assert line.isprintable() and re.search(r"\\(x1b|u001b)\[31m", line)
+
+
+def test_escapes_in_names_of_files_are_shown_not_obeyed(here, capsys):
+    name = "a\x1b[2Jb.toml"
+    Path("case.toml").rename(name)
+    code, out, err = command(capsys, "check", name)
+    assert code == 0 and out[0].startswith("a\\x1b[2Jb.toml: can be run") and not err
+    code, out, err = command(capsys, "run", name, "--out", "o\x07")
+    assert code == 0 and err[-1].endswith("written to o\\x07") and err[-1].isprintable()
+    with pytest.raises(SystemExit):
+        cli.main(["check", name, "--\x1b[31m"])
+    assert "\x1b" not in capsys.readouterr().err
+
+
+def test_a_terminal_that_lacks_a_letter_is_told_all_the_same(here):
+    Path("case.toml").rename("brücke \U0001f600.toml")
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    given = [sys.executable, "-m", "railbridge", "check", "brücke \U0001f600.toml"]
+    done = subprocess.run(given, capture_output=True, env=environment)
+    assert done.returncode == 0 and done.stdout.startswith(b"br\\xfccke \\U0001f600.toml: can be")
 
 
 def test_schema_is_a_schema_and_every_shipped_case_fits_it():
@@ -677,6 +805,58 @@ def test_random_arguments_never_give_a_traceback(tmp_path_factory, arguments):
         assert cli.main(arguments) in (0, 2)
     except SystemExit as stop:
         assert stop.code == 2
+
+
+# ---- what is said of a result
+
+
+LIGHT = """
+[deck]
+length = 60.0
+bending_stiffness_vertical = 3e10
+mass = 3000.0
+damping = { modal = 0.01 }
+[train]
+vehicle = "xia2000"
+cars = 8
+[run]
+speed = 60.0
+time_step = 4e-3
+iterations = 8
+"""
+
+
+def test_passes_that_diverge_say_so_in_word_code_and_remarks(tmp_path, capsys):
+    """They said "solved", and exit code 0, of a deck that sagged by metres."""
+    (tmp_path / "light.toml").write_text(LIGHT)
+    arguments = ["run", str(tmp_path / "light.toml"), "--out", str(tmp_path / "out")]
+    assert cli.main([*arguments, "--no-histories"]) == 3
+    err = capsys.readouterr().err
+    assert "warning: run.iterations = 8: the last pass still changed" in err
+    assert "railbridge: not settled: 8 iterations, last change " in err and "solved" not in err
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert any(text.startswith("run.iterations = 8: ") for text in summary["remarks"])
+    assert summary["converged"] is False and summary["changes"][-1] > 0.01
+    assert cli.main([*arguments, "--no-histories", "--set", "run.iterations=1"]) == 0
+    assert "1 iteration, last change 1, " in capsys.readouterr().err
+
+
+def test_wheel_forces_on_the_deck_stand_beside_those_of_the_whole_record(tmp_path):
+    case = rb.case("paper").replace({"train.cars": 2, "run.time_step": 2e-3})
+    run = case.compute()
+    summary = case.summary(run)
+    forces = run.wheel_forces[:, 1]
+    on = np.array([
+        (20.0 * run.time - w.delay > -1e-6) & (20.0 * run.time - w.delay < 36.0 + 1e-6)
+        for w in run.train.wheels
+    ])  # fmt: skip
+    told = summary["wheel_force_z"]
+    assert told["min"]["value"] == forces.min() <= told["on_deck"]["min"]["value"]
+    assert told["on_deck"]["min"]["value"] == forces[on].min()
+    assert told["on_deck"]["max"]["value"] == forces[on].max()
+    unloading = summary["wheel_unloading"]
+    assert unloading["on_deck"]["max"]["value"] == run.wheel_unloading[on].max()
+    assert unloading["max"]["value"] >= unloading["on_deck"]["max"]["value"]
 
 
 # ---- the page that describes it

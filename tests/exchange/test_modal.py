@@ -96,6 +96,41 @@ def test_what_modes_cannot_give_is_null_and_said():
         crossing(deck, interaction="rigid", iterations=None).section_forces(18.0)
 
 
+def test_too_few_modes_of_a_viaduct_are_remarked(tmp_path):
+    """Six simple spans alike have six equal frequencies: four of them leave spans standing still,
+    five leave one half of what moves."""
+    beam = rb.Beam("six", (30.0,) * 6, 36e3, 2.5e11, continuous=False)
+    whole = rb.deck(rb.exchange.export_modes(beam.deck(12, 0.02), tmp_path / "whole"))
+    assert whole.remarks == ()
+    content = tmp_path / "whole"
+    few = rb.case(
+        {
+            "deck": {"file": str(content / "deck.toml"), "modes": 4},
+            "train": {"axles": [0.0], "loads": [1e5]},
+            "run": {"speed": 40.0, "interaction": "rigid"},
+        }
+    )
+    texts = [str(doubt) for doubt in few.doubts]
+    assert any(t.startswith("deck.modes.count = 4 cuts a group of equal") for t in texts)
+    # Written by a program that was asked for three modes, the file itself cannot tell.
+    short = rb.deck(rb.exchange.export_modes(beam.deck(3, 0.02), tmp_path / "short"))
+    (remark,) = short.remarks
+    assert str(remark).startswith("modes move nothing up and down from x = ")
+    assert "other span" in str(remark) or "m: too few" in str(remark)
+
+
+def test_modes_that_move_nothing_up_and_down_are_remarked(tmp_path):
+    sideways = rb.Beam("deck", (30.0,), 36e3, 2.5e11, 5e10).deck(2, 0.02)
+    only = dataclasses.replace(
+        sideways, shapes=_first(sideways.shapes, 1), frequencies_hz=sideways.frequencies_hz[:1],
+        damping_ratios=sideways.damping_ratios[:1], mode_names=sideways.mode_names[:1],
+        recovery=None,
+    )  # fmt: skip
+    assert not only.has["z"]
+    (remark,) = rb.deck(rb.exchange.export_modes(only, tmp_path / "only")).remarks
+    assert str(remark) == "modes move nothing up and down: vertical results are null."
+
+
 def test_a_rail_that_stands_still_and_damping_that_is_none_are_refused():
     model = read(EXAMPLE)
     line = model.nodes.line({"y": 0.0, "z": 0.0})

@@ -113,3 +113,8 @@ def test_paths_and_stamps_of_a_deck_file(tmp_path):
     assert stamps(opened)[1:] == [4]
     for other in ({}, {"modes": 20}):
         assert beside(other, tmp_path) == other and stamps(other) == []
+
+
+def test_supports_of_a_line_whose_nodes_are_rounded_are_its_ends():
+    deck = ModesTable(**FILES, rail=RAIL, supports=[0.0, 36.00002]).deck(0.02)
+    assert deck.supports == (0.0, 36.0)

@@ -17,10 +17,10 @@ from railbridge.exchange.tables import read_columns
 SECRET = "root:$6$hunter2:19000:0:99999:7:::\ndaemon:*:19000:0:99999:7:::\n"
 
 
-def test_text_comes_as_it_is_read_anywhere(tmp_path):
+def test_text_comes_without_its_mark_and_with_its_own_line_ends(tmp_path):
     path = tmp_path / "a.csv"
     path.write_bytes("\ufeffä\r\nb\rc\n".encode())
-    assert reading.read_text(path) == "ä\nb\nc\n"
+    assert reading.read_text(path) == "ä\r\nb\rc\n"
 
 
 def within_seconds(door, seconds=20, memory=3_000_000_000):

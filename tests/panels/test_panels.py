@@ -194,6 +194,55 @@ def test_a_refusal_after_a_coarse_picture_promises_nothing():
     asyncio.run(work())
 
 
+def test_remarks_stand_below_the_summary_and_go_with_their_reason(panel):
+    assert panel.remarks.value == "" and "rb-remarks" in panel.remarks._dom_classes
+    base, panel._base = panel._base, panel._base.replace({"track.lateral.phase": 90.0})
+    panel._results.clear()
+    panel.set(speed=22.0)
+    assert "track.lateral.phase = 90 rad" in panel.remarks.value
+    assert panel.remarks.value.startswith('<div role="note"')
+    panel._base = base
+    panel._results.clear()
+    panel.reset()
+    assert panel.remarks.value == ""
+
+
+def test_remarks_are_escaped_and_three_at_most():
+    found = [rb.errors.InputWarning("deck", f"<b>{i}</b> is odd") for i in range(5)]
+    case = rb.case("paper").replace(QUICK)
+    control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
+    panel = panels.Panel(
+        case, [control], [["a"]], lambda *_: None, lambda *_: "", compute=lambda *_: None,
+        remarks=lambda *_: found,
+    )  # fmt: skip
+    assert "deck &lt;b&gt;2&lt;/b&gt; is odd" in panel.remarks.value
+    assert "<b>" not in panel.remarks.value and "&lt;b&gt;3" not in panel.remarks.value
+    assert "And 2 more" in panel.remarks.value
+
+
+def test_remarks_come_with_the_exact_picture_not_while_moving():
+    asked = []
+
+    def remarks(case, result):
+        asked.append(case.settings.time_step)
+        return [rb.errors.ResultWarning("", f"at {case.settings.speed:g} m/s")]
+
+    control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
+    case = rb.case("paper").replace({"run.time_step": None})
+    panel = panels.Panel(
+        case, [control], [["a"]], lambda *_: None, lambda *_: "", compute=lambda *_: None,
+        remarks=remarks, rough=True,
+    )  # fmt: skip
+
+    async def work():
+        panel.sliders["speed"].value = 25.0
+        assert panel.remarks.value == ""
+        await until(lambda: "at 25 m/s" in panel.remarks.value)
+
+    asyncio.run(work())
+    assert max(asked) <= 1e-3, "a coarse run is not remarked upon"
+
+
 def test_an_error_of_the_exact_crossing_is_said_when_the_panel_rests():
     def compute(case, progress):
         if case.settings.time_step < 2e-3 and case.settings.speed > 20.0:

@@ -9,10 +9,11 @@ import numpy as np
 
 from .. import errors
 from ..decks import Deck, checked_damping, damping_ratios
-from ..errors import InputError
+from ..errors import InputError, Remark
 from .influence import BeamRecovery
 from .mesh import DENSE, BeamModes, Mesh
 from .properties import BeamProperties
+from .selection import left_out, needed
 
 __all__ = ["Beam"]
 
@@ -45,7 +46,7 @@ class Beam(BeamProperties):  # noqa: D101
 
     def deck(
         self,
-        modes: int = 20,
+        modes: int | None = None,
         damping: tuple[float, float] | float = 0.0,
         tracks: dict[str, float] | None = None,
         width: float | None = None,
@@ -57,8 +58,8 @@ class Beam(BeamProperties):  # noqa: D101
 
         Parameters
         ----------
-        modes : int
-            How many.
+        modes : int, optional
+            How many; chosen if not given, see `selection.needed`.
         damping : tuple of float, or float
             (alpha, beta) of Rayleigh, 1/s and s; or one ratio for every mode.
         tracks, width, track_height
@@ -67,17 +68,12 @@ class Beam(BeamProperties):  # noqa: D101
         Raises
         ------
         InputError
-            More modes than the mesh has, or no damping.
+            More modes than the mesh has, none that moves up and down, or no damping.
         """
-        wanted = errors.integer("modes", modes, least=1)
         damping = checked_damping(damping)
-        natural = self.modes if self.mesh.size <= DENSE else self.mesh.modes(wanted)
-        excitable = np.flatnonzero(natural.excitable).tolist()
-        if wanted > len(excitable):
-            allowed = f"the mesh has {len(excitable)} modes that loads excite"
-            raise InputError("modes", modes, allowed, "Use more elements")
-        kept = excitable[:wanted]
+        natural, kept = self._chosen() if modes is None else self._lowest(modes)
         frequencies, vectors = natural.frequencies_hz[kept], natural.vectors[:, kept]
+        recovery = BeamRecovery(self.mesh, frequencies, vectors)
         return Deck(
             name=self.name,
             length=self.length,
@@ -87,9 +83,46 @@ class Beam(BeamProperties):  # noqa: D101
             shapes=self.mesh.interpolate(vectors),
             supports=tuple(sorted({b.x for b in self.bearings})),
             bearings=tuple((b.x, b.y, b.z) for b in self.bearings),
-            recovery=BeamRecovery(self.mesh, frequencies, vectors),
+            recovery=recovery,
             tracks=tracks or {},
             width=width,
             track_height=track_height,
             mass_per_metre=self.mass,
+            internal_damping=0.0 if np.isscalar(damping) else float(damping[1]),
+            remarks=(
+                *self.remarks,
+                *([] if modes is None else self._left_out(recovery, frequencies)),
+            ),
         )
+
+    def _chosen(self) -> tuple[BeamModes, list[int]]:
+        """Return modes, and which of them are kept where no number is given."""
+        spans, asked = len(self.spans), 20 + 8 * len(self.spans)
+        while True:
+            whole = self.mesh.size <= DENSE
+            natural = self.modes if whole else self.mesh.modes(asked)
+            excitable = np.flatnonzero(natural.excitable)
+            whole = whole or len(natural.names) >= self.mesh.basis.shape[1]
+            count = needed(natural, excitable, self.fields, spans, whole)
+            if count is not None:
+                return natural, excitable[:count].tolist()
+            asked *= 2
+
+    def _lowest(self, modes: int) -> tuple[BeamModes, list[int]]:
+        """Return modes, and which of them are the so many lowest that loads can excite."""
+        wanted = errors.integer("modes", modes, least=1)
+        natural = self.modes if self.mesh.size <= DENSE else self.mesh.modes(wanted)
+        excitable = np.flatnonzero(natural.excitable).tolist()
+        if wanted > len(excitable):
+            allowed = f"the mesh has {len(excitable)} modes that loads excite"
+            raise InputError("modes", modes, allowed, "Use more elements")
+        moving = [natural.energies["vertical"][i] > 1e-6 for i in excitable]
+        if not any(moving[:wanted]):
+            allowed = "none of so few moves up and down"
+            first = f"Take at least {moving.index(True) + 1}" if any(moving) else "Take more"
+            raise InputError("modes", modes, allowed, f"{first}, or leave modes out")
+        return natural, excitable[:wanted]
+
+    def _left_out(self, recovery: BeamRecovery, frequencies: np.ndarray) -> list[Remark]:
+        edges = np.concatenate([[0.0], np.cumsum(self.spans)])
+        return left_out(recovery, frequencies, (edges[1:] + edges[:-1]) / 2)

@@ -21,6 +21,7 @@ from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU
 
+from ..errors import brief
 from ..guideways import PiecewiseCubic
 from ..settings import refuse_bytes
 from . import elements
@@ -66,6 +67,8 @@ class BeamModes:
     energies : dict of ndarray, shape (m,)
         Share of the kinetic energy in each field.
     """
+
+    __repr__ = brief
 
     frequencies_hz: np.ndarray
     names: tuple[str, ...]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 from ..beams import Beam, Bearing
 from ..decks import Deck, checked_damping, damping_ratios
-from ..errors import InputError
+from ..errors import InputError, ResultWarning, brief
 from .boxshell import BoxMesh, shell_of
 from .dimensions import BoxDimensions
 from .section import (
@@ -26,6 +26,8 @@ __all__ = ["Box"]
 class Box(BoxDimensions):  # noqa: D101
     # What its fields mean is written once, and read by whoever asks for help on a box.
     __doc__ = BoxDimensions.__doc__
+
+    __repr__ = brief
 
     # ---- section and beam
 
@@ -126,16 +128,18 @@ class Box(BoxDimensions):  # noqa: D101
         return tuple(result)
 
     def beam_deck(
-        self, modes: int = 20, damping: tuple[float, float] | float = 0.0, **switches: bool
+        self, modes: int | None = None, damping: tuple[float, float] | float = 0.0, **switches: bool
     ) -> Deck:
         """Return the modal deck of the beam, its rails on top of the slab.
 
         See `beam` for the switches.
         """
         height = self.depth - self.section.shear_centre[1]
-        return self.beam(**switches).deck(
+        made = self.beam(**switches).deck(
             modes, damping, dict(self.tracks), self.slab_width, height
         )
+        left_out = [remark for remark in made.remarks if isinstance(remark, ResultWarning)]
+        return replace(made, remarks=(*self.remarks, *left_out))
 
     # ---- shell
 
@@ -145,7 +149,7 @@ class Box(BoxDimensions):  # noqa: D101
 
     def shell_deck(
         self,
-        modes: int = 15,
+        modes: int | None = None,
         damping: tuple[float, float] | float = 0.0,
         mesh: BoxMesh | None = None,
     ) -> Deck:
@@ -154,12 +158,13 @@ class Box(BoxDimensions):  # noqa: D101
         Its shapes are the motion of the line between the heads of the two webs, at the middle plane
         of the slab: lateral and vertical their mean, twist their difference. What rails over the
         webs feel; a wheel between the webs also bends the slab. Section forces and reactions are
-        not recovered (`recovery` is None), and modes are not corrected statically.
+        not recovered (`recovery` is None), and modes are not corrected statically. Fifteen modes a
+        span if no number is given.
         """
         mesh = mesh or BoxMesh()
         damping = checked_damping(damping)
         shell = self.shell(mesh)
-        result = shell.modes(modes)
+        result = shell.modes(15 * len(self.spans) if modes is None else modes)
         ratios = damping_ratios(damping, result.frequencies_hz)
         return Deck(
             name=self.name,
@@ -173,6 +178,7 @@ class Box(BoxDimensions):  # noqa: D101
             width=self.slab_width,
             track_height=self.head_thickness / 2,
             mass_per_metre=self.mass_per_metre,
+            remarks=self.remarks,
         )
 
     def convergence(self, factors: tuple[float, ...] = (0.5, 1.0, 1.5, 2.0), modes: int = 15):

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import errors
-from ..errors import InputError
+from ..errors import InputError, brief
 
 __all__ = ["SectionProperties", "refuse_crossing", "section_properties", "triangles_needed"]
 
@@ -42,6 +42,8 @@ class SectionProperties:
     centroid, shear_centre : tuple of (y, z)
         m, in the axes of the outline.
     """
+
+    __repr__ = brief
 
     area: float
     second_moment_vertical: float

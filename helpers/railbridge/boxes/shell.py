@@ -14,7 +14,7 @@ from scipy.sparse import csc_array, csr_array
 
 from .. import errors
 from ..beams.eigen import lowest
-from ..errors import InputError
+from ..errors import InputError, brief
 from ..guideways import PiecewiseCubic
 from ..settings import refuse_bytes
 from .motions import ShellModes, described, sectionwise
@@ -47,6 +47,8 @@ class Shell(PlateModel):
     InputError
         Pads that leave the shell a mechanism, or pads or plates off the shell.
     """
+
+    __repr__ = brief
 
     pads: tuple[Pad, ...] = ()
 

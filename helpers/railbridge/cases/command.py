@@ -1,8 +1,9 @@
 """The command ``railbridge``: case files in, results out.
 
 Exit codes: 0 all is well; 1 the computer failed (disk, memory); 2 the case file or a path is wrong,
-with one line that names the key; 3 the iteration did not converge, results written all the same;
-130 interrupted (128 and its number for other signals), nothing half-written.
+with one line that names the key, or a value is doubted and ``--strict`` given; 3 the iteration did
+not converge or settle, results written all the same; 130 interrupted (128 and its number for other
+signals), nothing half-written.
 """
 
 from __future__ import annotations
@@ -15,14 +16,15 @@ import sys
 import time
 import tomllib
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any, NoReturn, TextIO
 
 import numpy as np
 
 from ..crossing import NotConvergedError
-from ..errors import InputError
+from ..errors import InputError, InputWarning, Remark, ResultWarning, printable
+from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
 from . import copies, pages, shelf, staging
@@ -62,8 +64,9 @@ results (in the folder of --out; files of these names in it are replaced):
   The first column of every CSV file is t, in s; the names of the others end with their unit.
 
 exit codes:
-  0 done    1 out of memory or disk    2 bad case file or path
-  3 not converged (results are written)    130 interrupted    143 stopped
+  0 done    1 out of memory or disk    2 bad case file or path, or doubts with --strict
+  3 not converged, or not settled by run.iterations (results are written)
+  130 interrupted    143 stopped
 """
 
 
@@ -117,6 +120,9 @@ def _open_streams() -> None:
         sys.stdout = _nowhere()
     if sys.stderr is None:
         sys.stderr = _nowhere()
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):  # a terminal that lacks a letter is no reason to stop
+            stream.reconfigure(errors="backslashreplace")
 
 
 def _nowhere() -> TextIO:
@@ -124,15 +130,24 @@ def _nowhere() -> TextIO:
 
 
 def _say(line: str) -> None:
-    _tell("railbridge: " + " ".join(line.split()))
+    _note("railbridge: " + printable(" ".join(line.split())))
 
 
-def _tell(text: str, end: str = "\n") -> None:
+def _note(text: str, end: str = "\n") -> None:
     """Write to stderr; a run is not lost because nobody can read how it went."""
     try:
         print(text, end=end, file=sys.stderr, flush=True)
     except (OSError, ValueError):
         sys.stderr = _nowhere()
+
+
+def _tell(line: str) -> None:
+    print(printable(line))
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        super().error(printable(message))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -144,9 +159,7 @@ def _parser() -> argparse.ArgumentParser:
         return made
 
     raw = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(
-        "railbridge", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=raw
-    )
+    parser = _Parser("railbridge", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=raw)
     commands = parser.add_subparsers(required=True, metavar="command")
     changes = argparse.ArgumentParser(add_help=False)
     changes.add_argument("case", help="a case file (.toml), or the name of a shipped case")
@@ -156,6 +169,11 @@ def _parser() -> argparse.ArgumentParser:
         action="append",
         default=[],
         help="change a key, as in run.speed=30; may be repeated",
+    )
+    changes.add_argument(
+        "--strict",
+        action="store_true",
+        help="refuse what is unlikely to be meant (exit code 2), instead of a warning",
     )
     run = add(
         "run",
@@ -225,31 +243,68 @@ def _case(given: argparse.Namespace) -> Case:
 
 def _run(given: argparse.Namespace) -> int:
     loaded = _case(given)
+    doubts = _said_doubts(loaded, given.strict)
+    if doubts and given.strict:
+        return 2
     progress = _Progress(given.quiet)
     with staging.files(given.out, "--out", FILES) as folder:
         code = 0
         try:
-            run = loaded.run(progress)
+            run = loaded.compute(progress)
         except NotConvergedError as error:
             run, code, message = error.run, 3, str(error)
         _write(folder, loaded, run, progress, not given.no_histories)
     progress.end()
+    _warn(remark for remark in loaded.remarks(run) if str(remark) not in doubts)
     if code:
         _say(f"{message} What there is was written to {given.out}.")
+    elif unsettled(run):
+        # Said in words by the remark that was printed as a warning.
+        code = 3
+        _say(f"not settled: {_headline(loaded, run)}; written to {given.out}")
     elif not given.quiet:
         _say(f"{_headline(loaded, run)}; written to {given.out}")
     return code
 
 
+def _said_doubts(loaded: Case, strict: bool) -> set[str]:
+    """Print a line for whatever is unlikely to be meant, and return these lines."""
+    doubts = [remark for remark in loaded.doubts if isinstance(remark, InputWarning)]
+    if strict:
+        for doubt in doubts:
+            _say(str(doubt))
+    else:
+        _warn(doubts)
+    return {str(doubt) for doubt in doubts}
+
+
+def _warn(remarks: Iterable[Remark]) -> None:
+    """Print a line for every remark that is also warned of."""
+    for remark in remarks:
+        if isinstance(remark, (InputWarning, ResultWarning)):
+            _say(f"warning: {remark}")
+
+
 def _headline(loaded: Case, run: Crossing) -> str:
-    solved = (
-        f"converged in {run.iterations} iterations"
-        if run.converged
-        else f"solved ({run.settings.interaction})"
-    )
-    x = loaded.points[0]
-    value, _ = run.displacement(x).extreme("displacement_z")
-    return f"{solved}, displacement at x = {x:g} m is {value * 1e3:.4g} mm"
+    passes = f"{run.iterations} iteration{'s' * (run.iterations != 1)}"
+    solved = f"solved ({run.settings.interaction})"
+    if run.converged is not None:
+        solved = f"converged in {passes}"
+        if not run.converged:
+            solved = f"{passes}, last change {run.changes[-1]:.2g}"
+    x, value = _worst(loaded, run)
+    where = "largest displacement, " if len(loaded.points) > 1 else "displacement "
+    return f"{solved}, {where}at x = {x:g} m is {value * 1e3:.4g} mm"
+
+
+def _worst(loaded: Case, run: Crossing) -> tuple[float, float]:
+    """Return the point that moves most and its displacement, m; the vertical one if there is any.
+
+    Signed.
+    """
+    name = "displacement_z" if run.deck.has["z"] else "displacement_y"
+    found = [(x, run.displacement(x).extreme(name)[0]) for x in loaded.points]
+    return max(found, key=lambda each: abs(each[1]))
 
 
 def _write(
@@ -269,11 +324,13 @@ def _write(
 
 def _check(given: argparse.Namespace) -> int:
     loaded = _case(given)
+    if _said_doubts(loaded, given.strict) and given.strict:
+        return 2
     needed = bytes_needed(loaded.train, loaded.deck, loaded.settings, len(loaded.points))
     s = loaded.settings
     seconds = (loaded.deck.length + loaded.train.length) / s.speed + s.tail
     wheels = len(loaded.train.wheels)
-    print(
+    _tell(
         f"{given.case}: can be run; {wheels} wheels, {seconds:.3g} s in steps of "
         f"{s.time_step:.3g} s, {needed / 1e9:.2g} GB"
     )
@@ -293,7 +350,7 @@ def _new(given: argparse.Namespace) -> int:
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
         raise InputError("file", given.file, f"cannot be written ({why})") from None
-    print(f"{given.file} written; run it with: railbridge run {given.file} --out results")
+    _tell(f"{given.file} written; run it with: railbridge run {given.file} --out results")
     return 0
 
 
@@ -312,7 +369,7 @@ def _list(given: argparse.Namespace) -> int:
     for kind in [given.kind] if given.kind else KINDS:
         print(kind)
         for name in shelf.data_names(kind):
-            print(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
+            _tell(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
     return 0
 
 
@@ -340,7 +397,7 @@ def _copy_notebooks(given: argparse.Namespace) -> int:
             copies.place(planned, folder, staged.scratch)
     for copy in planned:
         if copy.action in ("updated", "kept", "replaced"):
-            print(
+            _tell(
                 f"{copy.action:10}{copy.name}"
                 + f"  (yours is now {copy.backup})" * bool(copy.backup)
             )
@@ -348,13 +405,13 @@ def _copy_notebooks(given: argparse.Namespace) -> int:
         a: sum(c.action == a for c in planned)
         for a in ("copied", "updated", "replaced", "unchanged", "kept")
     }
-    print(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
+    _tell(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
     if count["kept"]:
         print(
             "kept: changed since they were copied; --force replaces them and keeps yours "
             "beside under another name"
         )
-    print(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
+    _tell(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
     return 0
 
 
@@ -374,17 +431,17 @@ class _Progress:
         if self.quiet or now - self.last < (0.2 if terminal else 10.0) or now - self.start < 1.0:
             return
         self.last = now
-        line = f"railbridge: {text}, {now - self.start:.0f} s"
+        line = f"railbridge: {printable(text)}, {now - self.start:.0f} s"
         if terminal:
-            _tell("\r" + line.ljust(self.shown), end="")
+            _note("\r" + line.ljust(self.shown), end="")
             self.shown = len(line)
         else:
-            _tell(line)
+            _note(line)
 
     def end(self) -> None:
         """Clear the line."""
         if self.shown:
-            _tell("\r" + " " * self.shown + "\r", end="")
+            _note("\r" + " " * self.shown + "\r", end="")
             self.shown = 0
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,9 @@ from ..exchange.reading import read_text
 from ..exchange.tables import read_columns
 from ..units import quantity
 
-__all__ = ["data_file", "data_names", "data_root", "read_parameters", "read_toml"]
+__all__ = [
+    "data_file", "data_names", "data_root", "is_path", "read_parameters", "read_toml",
+]  # fmt: skip
 
 LARGEST_TOML = 2e7
 """Bytes; twenty seconds of reading, and a measured track of a million samples."""
@@ -70,7 +72,7 @@ def data_file(kind: str, name: str | Path, *suffixes: str) -> Path:
         remedy = "Shipped: " + ", ".join(data_names(kind))
         raise InputError(field, name, "must be a name or a path", remedy)
     path = Path(name)
-    if path.suffix in (".csv", ".toml") or len(path.parts) > 1:
+    if is_path(name):
         if path.suffix not in suffixes:
             allowed = f"{field} files must end in {' or '.join(suffixes)}"
             said = {(".toml",): f"{field} files are TOML"}.get(suffixes, allowed)
@@ -88,6 +90,12 @@ def data_file(kind: str, name: str | Path, *suffixes: str) -> Path:
         near = did_you_mean(str(name), data_names(kind, *suffixes))
         raise InputError(field, str(name), f"no such {field}", near)
     return found[0]
+
+
+def is_path(name: str | Path) -> bool:
+    """Whether a name is the path of a file, not that of something shipped."""
+    path = Path(name)
+    return path.suffix in (".csv", ".toml") or len(path.parts) > 1
 
 
 def _is_there(path: Path) -> bool:
@@ -108,7 +116,7 @@ def read_toml(path: Path, known: Iterable[str] = ()) -> dict[str, Any]:
         said: it may be somebody else's.
     """
     try:
-        content = tomllib.loads(read_text(path, largest=LARGEST_TOML))
+        content = tomllib.loads(read_text(path, largest=LARGEST_TOML).replace("\r\n", "\n"))
     except InputError as error:
         raise InputError("", None, error.allowed, error.remedy, path.name) from None
     except (ValueError, RecursionError) as error:
@@ -121,15 +129,24 @@ def read_toml(path: Path, known: Iterable[str] = ()) -> dict[str, Any]:
     return content
 
 
-def read_parameters(path: Path, expected: Mapping[str, str]) -> dict[str, float]:
-    """Read a parameter table (columns symbol, name, value, unit, source, note) into SI values.
+def read_parameters(
+    path: Path,
+    expected: Mapping[str, str],
+    optional: Collection[str] = (),
+    synonyms: Mapping[str, str] | None = None,
+) -> dict[str, float]:
+    """Read a parameter table (columns name, value, unit) into SI values.
 
     Parameters
     ----------
     path : Path
-        A CSV file; see `read_columns`.
+        A CSV file; see `read_columns`. The columns symbol, source and note are for people.
     expected : mapping
-        Names that must be there, each with its SI unit. Nothing else may be there.
+        Names that may be there, each with its SI unit. Nothing else may be there.
+    optional : collection of str
+        Which of them may be left out.
+    synonyms : mapping, optional
+        Other names of some.
 
     Returns
     -------
@@ -142,19 +159,20 @@ def read_parameters(path: Path, expected: Mapping[str, str]) -> dict[str, float]
         Missing, unknown or duplicated column or row, wrong unit, or a value that is not a finite
         number.
     """
-    columns = ["symbol", "name", "value", "unit", "source", "note"]
-    table = read_columns(path, columns, may_be_empty=True)
-    cells = zip(*(table.cells[c] for c in ("name", "value", "unit")), strict=True)
+    columns = ["name", "value", "unit"]
+    table = read_columns(path, columns, ["symbol", "source", "note"], may_be_empty=True)
+    cells = zip(*(table.cells[c] for c in columns), strict=True)
     result: dict[str, float] = {}
     with within(source=table.name):
-        for line, (name, value, unit) in zip(table.lines, cells, strict=True):
-            row = f"line {line}: row {name}"
+        for line, (given, value, unit) in zip(table.lines, cells, strict=True):
+            name, row = (synonyms or {}).get(given, given), f"line {line}: row {given}"
             if name not in expected:
-                raise InputError(row, None, "unknown parameter", did_you_mean(name, expected))
+                raise InputError(row, None, "unknown parameter", did_you_mean(given, expected))
             if name in result:
                 raise InputError(row, None, "appears more than once", "Remove one of the rows")
-            result[name] = quantity(f"line {line}: {name}", value, unit, expected[name])
-        missing = [name for name in expected if name not in result]
+            field = f"line {line}: {given}"
+            result[name] = quantity(field, table.number(field, value), unit, expected[name])
+        missing = [name for name in expected if name not in result and name not in optional]
         if missing:
             remedy = "Rows missing: " + ", ".join(missing)
             raise InputError(f"row {missing[0]}", None, "is missing", remedy)

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from .. import notices
-from ..decks import Line
+from ..decks import History, Line
 from ..errors import Remark
 from ..results import ENVELOPE, Crossing
 from ..settings import STATIONS
@@ -143,9 +143,9 @@ def histories(run: Crossing, points: Sequence[float]) -> Iterator[HistoryTable]:
     columns, values = ["t"], [time]
     for x in points:
         for name, history in _histories_at(run, float(x)).items():
-            if not np.isnan(history).all():
+            if not np.isnan(history[name]).all():
                 columns.append(f"x={x:g} {name} ({QUANTITIES[name]})")
-                values.append(history)
+                values.append(history[name])
     yield HistoryTable("points", columns, values)
     columns, values = ["t"], [time]
     for wheel, forces in zip(run.train.wheels, run.wheel_forces, strict=True):
@@ -160,11 +160,10 @@ def histories(run: Crossing, points: Sequence[float]) -> Iterator[HistoryTable]:
                 columns.append(f"x={x:g} {name} ({history.units[name]})")
                 values.append(force)
     yield HistoryTable("reactions", columns, values)
-    component = 1 if run.deck.has["z"] else 0
-    shape = run.deck.shapes(np.array([float(points[0])]))[0, :, component]
-    name = f"x={points[0]:g} displacement_{'yz'[component]} (m)"
-    columns = [f"iteration {i} {name}" for i in range(run.iterations + 1)]
-    values = [shape @ run.at(i).state.q for i in range(run.iterations + 1)]
+    name = "displacement_z" if run.deck.has["z"] else "displacement_y"
+    stages, x = range(run.iterations + 1), float(points[0])
+    columns = [f"iteration {i} x={x:g} {name} (m)" for i in stages]
+    values = [run.at(i).displacement(x)[name] for i in stages]
     yield HistoryTable("iterations", ["t", *columns], [time, *values])
 
 
@@ -202,6 +201,13 @@ def _extremes(
     return result
 
 
+def _entry(extremes: tuple[tuple[float, float], tuple[float, float]]) -> dict[str, Any] | None:
+    """Return min and max of a history with their times; None if there is no finite value."""
+    found = zip(("min", "max"), extremes, strict=True)
+    entry = {key: {"value": value, "t": round(t, 9)} for key, (value, t) in found}
+    return entry if math.isfinite(entry["min"]["value"]) else None
+
+
 def _deviations(run: Crossing) -> dict[str, Any]:
     if run.iterations == 0:
         return {"from_rigid": [], "from_previous": []}
@@ -212,20 +218,27 @@ def _deviations(run: Crossing) -> dict[str, Any]:
 
 def _wheels(run: Crossing) -> dict[str, Any]:
     places = [{"car": w.car, "wheel": w.number} for w in run.train.wheels]
-    unloading = _extremes(run.wheel_unloading, run.time, places)
-    return {
-        "wheel_force_z": _extremes(run.wheel_forces[:, 1], run.time, places),
-        "wheel_unloading": {"max": unloading and unloading["max"]},
-    }
+    forces, result = run.wheel_forces[:, 1], {}
+    for name, values in (("wheel_force_z", forces), ("wheel_unloading", run.wheel_unloading)):
+        whole, on_deck = (
+            _extremes(v, run.time, places) for v in (values, np.where(run.on_deck, values, np.nan))
+        )
+        if name == "wheel_unloading":
+            whole, on_deck = ({"max": found and found["max"]} for found in (whole, on_deck))
+        result[name] = whole and whole | {"on_deck": on_deck}
+    return result
 
 
-def _histories_at(run: Crossing, x: float) -> dict[str, np.ndarray]:
-    """Return the histories of all `QUANTITIES` at x; NaN where the deck has no such stiffness."""
-    found = {**run.displacement(x).values, **run.acceleration(x).values}
-    if not run.deck.recovery.lacks:
-        found.update(run.section_forces(x).values)
+def _histories_at(run: Crossing, x: float) -> dict[str, History]:
+    """Return what tells of each of the `QUANTITIES` at x; NaN where the deck has none of it."""
     nothing = np.full(len(run.time), np.nan)
-    return {name: found.get(name, nothing) for name in QUANTITIES}
+    found = {name: History(run.time, {name: nothing}, QUANTITIES) for name in QUANTITIES}
+    told = [run.displacement(x), run.acceleration(x)]
+    if not run.deck.recovery.lacks:
+        told.append(run.section_forces(x))
+    for history in told:
+        found.update({name: history for name in history.values if name in QUANTITIES})
+    return found
 
 
 def _at_point(run: Crossing, x: float) -> dict[str, Any]:
@@ -253,17 +266,17 @@ def _reactions(run: Crossing) -> list[dict[str, Any]]:
     result = []
     for x, history in _known_reactions(run).items():
         lines = {name: run.deck.recovery.reaction(name, x) for name in history.values}
-        result.append({"x": x, **_entries(run, history.values, lines)})
+        result.append({"x": x, **_entries(run, dict.fromkeys(history.values, history), lines)})
     return result
 
 
 def _entries(
-    run: Crossing, values: dict[str, np.ndarray], lines: dict[str, Line | None]
+    run: Crossing, histories: dict[str, History], lines: dict[str, Line | None]
 ) -> dict[str, Any]:
     """Return extremes, static value and dynamic factor of every quantity at one place."""
     result = {}
-    for name, history in values.items():
-        entry = _extremes(history, run.time)
+    for name, history in histories.items():
+        entry = _entry(history.extremes(name))
         if entry is not None:
             line = lines.get(name)
             low, high = (0.0, 0.0) if line is None else run.static_extremes(line)
@@ -283,10 +296,14 @@ def _envelope(run: Crossing, name: str) -> dict[str, Any] | None:
     found = run.envelope(name)
     if found is None:
         return None
-    entry = _extremes(found.values, run.time, [{"x": x} for x in found.x])
-    if entry is not None:
-        low, high = found.values.min(axis=1), found.values.max(axis=1)
-        entry["stations"] = {"x": found.x, "min": low, "max": high}
+    extremes = [found.at(i).extremes("value") for i in range(len(found.x))]
+    low, high = (np.array([e[side][0] for e in extremes]) for side in (0, 1))
+    if not np.isfinite(low).all():
+        return None
+    entry: dict[str, Any] = {}
+    for key, place in (("min", np.argmin(low)), ("max", np.argmax(high))):
+        entry[key] = _entry(extremes[place])[key] | {"x": found.x[place]}
+    entry["stations"] = {"x": found.x, "min": low, "max": high}
     return entry
 
 

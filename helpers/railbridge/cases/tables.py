@@ -233,7 +233,8 @@ def _kind_of_train(value: Any) -> str:
 def _refuse_several_trains(value: Any) -> Any:
     if isinstance(value, list):
         allowed = "several trains on one deck are not supported: they feel each other through it"
-        raise InputError("", value, allowed, "Give one [train]")
+        remedy = "Give one [train]; of bare axle loads, which feel nothing, run each and add them"
+        raise InputError("", value, allowed, remedy)
     if isinstance(value, dict) and isinstance(value.get("cars"), list) and "vehicle" in value:
         allowed = "give either vehicle with a number of cars, or a list of cars"
         raise InputError("vehicle", value["vehicle"], allowed)
@@ -309,7 +310,8 @@ _SPANS = {
     "spans": key(numbers(above=0.0, unit="m"), "Several spans, m. Or length."),
 }
 _MODES = key(
-    number(least=1, whole=True), "How many modes are kept, the lowest that loads can excite.", 20
+    number(least=1, whole=True),
+    "How many modes are kept, the lowest that loads can excite; chosen if left out.",
 )
 _DAMPING = "Rayleigh { ratio, frequencies_hz }, or { modal }, the same ratio for every mode."
 _BEARINGS = "Bearings; default: y, z and roll at both ends of every span, x at the first."
@@ -437,7 +439,7 @@ MODES = table(
     **fields_of(
         ModesTable,
         units=anything(
-            {"type": "array", "minItems": 1, "maxItems": 2, "items": {"type": "string"}}
+            {"type": "array", "minItems": 1, "maxItems": 2, "items": {"type": ["string", "number"]}}
         ),
         axes=anything({"type": "array", "minItems": 3, "maxItems": 3, "items": {"enum": _AXES}}),
         rail=anything({"type": "object"}),

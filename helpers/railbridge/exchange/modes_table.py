@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 from .. import errors
 from ..decks import Deck
-from ..errors import Range, check_fields, within
+from ..errors import Range, brief, check_fields, within
 from .files import read_modes
 from .modal import deck_from_modes
 from .nodes import (
@@ -49,7 +49,8 @@ class ModesTable:
         CSV file of the nodal masses: node, mass, inertia_x, inertia_y, inertia_z. With it the modes
         are checked for orthogonality.
     units : (length, mass), optional
-        Units of the model, as ["mm", "t"]; needed where the files do not say them.
+        Units of the model, as ["mm", "t"] or ["in", "lbf s2/in"]; a unit without a name is the
+        number of metres or kilograms that it is. Needed where the files do not say them.
     axes : three of x, -x, y, -y, z, -z
         The model's axes that point forward, left and up.
     rail : table, optional
@@ -66,10 +67,12 @@ class ModesTable:
         Whether frequencies and masses beyond those of bridges are accepted.
     """
 
+    __repr__ = brief
+
     nodes: str
     modes: str
     masses: str | None = None
-    units: tuple[str, ...] | None = None
+    units: tuple[str | float, ...] | None = None
     axes: tuple[ModelAxis, ModelAxis, ModelAxis] = ("x", "y", "z")
     rail: NodeChoice | NodeRows | None = None
     axis: AxisPlace | None = None
@@ -110,14 +113,16 @@ class ModesTable:
         """
         model = read_modes(self.nodes, self.modes, self.masses, self.units, self.axes)
         line = model.nodes.line(self.rail, self.axis)
-        errors.numbers("supports", self.supports, least=0.0, most=line.length, unit="m")
+        supports = errors.places(
+            "supports", self.supports, (0.0, line.length), slack=errors.ROUNDED
+        )
         with within(names=_IN_THE_TABLE):
             return deck_from_modes(
                 model,
                 line,
                 damping=damping,
                 count=self.count,
-                supports=self.supports,
+                supports=supports,
                 unusual=self.unusual,
                 **own,
             )

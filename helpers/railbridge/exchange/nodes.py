@@ -10,8 +10,8 @@ from typing import Annotated, Any, Literal, TypeVar, get_args
 import numpy as np
 
 from .. import errors
-from ..errors import InputError, Range, check_fields, within
-from ..units import MASSES, PER_METRE
+from ..errors import InputError, Range, brief, check_fields, within
+from ..units import factor_of, per_metre, spelled
 from .tables import Columns, labelled, read_columns
 
 __all__ = [
@@ -26,21 +26,29 @@ ModelAxis = Literal["x", "-x", "y", "-y", "z", "-z"]
 # ---- units and axes of a model
 
 
-def model_units(units: Sequence[str]) -> tuple[str, str]:
+def model_units(units: Sequence[str | float]) -> tuple[str, str]:
     """Return the units of length and mass that are named; kg where only a length is.
+
+    A unit without a name is the number of metres or kilograms that it is.
 
     Raises
     ------
     InputError
         Naming ``units``: not one or two, or unknown.
     """
-    several = isinstance(units, Iterable) and not isinstance(units, (str, Mapping))
+    several = isinstance(units, Iterable) and not isinstance(units, (str, bytes, Mapping))
     named = tuple(units) if several else ()
     if len(named) not in (1, 2):
         remedy = "For instance units = ['m', 'kg'], or '# units: m, kg' in the file"
         raise InputError("units", units, "must name a length and a mass", remedy)
-    length, mass = (*named, "kg")[:2]
-    return errors.choice("units[1]", length, PER_METRE), errors.choice("units[2]", mass, MASSES)
+    for i, (unit, dimension) in enumerate(zip(named, ("length", "mass"), strict=False), start=1):
+        factor_of(f"units[{i}]", unit, dimension)
+    length, mass = (*map(_unit, named), "kg")[:2]
+    return length, mass
+
+
+def _unit(unit: str | float) -> str:
+    return spelled(unit) if isinstance(unit, str) else repr(unit)
 
 
 def stated_units(table: Columns, given: Sequence[str] | None) -> tuple[str, str]:
@@ -59,7 +67,7 @@ def stated_units(table: Columns, given: Sequence[str] | None) -> tuple[str, str]
         return asked
     with within(source=table.name):
         found = model_units(table.units)
-    if asked is not None and tuple(given)[: len(table.units)] != table.units:
+    if asked is not None and asked[: len(table.units)] != found[: len(table.units)]:
         allowed = f"{table.name} itself says {', '.join(table.units)}"
         raise InputError("units", list(given), allowed, "Remove the wrong one")
     return found
@@ -115,7 +123,7 @@ def read_nodes(
     length, mass = stated_units(table, units)
     labels = table.unique_labels("node")
     turn = model_axes(axes)
-    places = np.stack([table.numbers(c) for c in "xyz"], axis=1) / PER_METRE[length] @ turn.T
+    places = np.stack([table.numbers(c) for c in "xyz"], axis=1) / per_metre(length) @ turn.T
     cubic = table.remarks.get("pieces") == ("cubic",)
     return Nodes(tuple(labels), errors.frozen(places), (length, mass), turn, cubic)
 
@@ -138,6 +146,8 @@ class NodeChoice:
     nodes : tuple of str or int, optional
         Numbers or names of the nodes, instead of a place.
     """
+
+    __repr__ = brief
 
     y: Annotated[float, Range(unit="m")] | None = None
     z: Annotated[float, Range(unit="m")] | None = None
@@ -263,6 +273,8 @@ class Nodes:
         `export_modes` writes them.
     """
 
+    __repr__ = brief
+
     labels: tuple[str, ...]
     places: np.ndarray
     units: tuple[str, str] = ("m", "kg")
@@ -374,6 +386,8 @@ class RailLine:
     units, turn, cubic
         See `Nodes`.
     """
+
+    __repr__ = brief
 
     labels: tuple[tuple[str, ...], ...]
     x: np.ndarray

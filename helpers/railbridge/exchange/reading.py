@@ -55,7 +55,7 @@ def read_text(path: str | Path, field: str = "path", largest: float = LARGEST) -
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(field, path.name, "is not text", "Save it as UTF-8 text") from None
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+    return text
 
 
 def _content(path: Path, most: int) -> bytes | None:

@@ -29,15 +29,15 @@ from scipy.interpolate import CubicSpline
 from .. import errors
 from ..coupling import Coupling, DeckState, ForcesAdded, prepare
 from ..decks import History
-from ..errors import InputError, within
+from ..errors import InputError, brief, within
 from ..guideways import Guideway, PiecewiseCubic
 from ..settings import check, refuse_bytes
 from ..tracks import FadeIn, Track
 from ..trains import AnyTrain
-from ..units import PER_METRE
+from ..units import per_metre
 from .interpolation import spline
 from .loads import NodalLoads, export_loads, nodal_loads
-from .nodes import RailLine
+from .nodes import RailLine, model_units
 from .tables import Columns, read_columns
 
 __all__ = [
@@ -68,6 +68,8 @@ class Staggered:
     felt : DeckState or None
         The nodes' motion that the last forces answer to.
     """
+
+    __repr__ = brief
 
     train: AnyTrain
     track: Track
@@ -161,6 +163,8 @@ class NodeMotion:
         carry the rail.
     """
 
+    __repr__ = brief
+
     time: np.ndarray
     y: np.ndarray
     z: np.ndarray
@@ -188,11 +192,11 @@ def read_motion(path: str | Path, line: RailLine) -> NodeMotion:
                 raise InputError(f"column {column}", None, allowed, "Write zeros if none")
         length = line.units[0]
         if table.units is not None:
-            length = errors.choice("units[1]", (*table.units, "")[0], PER_METRE)
+            length = model_units(table.units)[0]
         time, index = _instants(table, line)
     zeros = np.zeros(len(table.lines))
     found = np.array([table.numbers(c) if c in table.cells else zeros for c in _MOTIONS])
-    moved = np.einsum("ij,jnt->int", line.turn, found[:3][:, index]) / PER_METRE[length]
+    moved = np.einsum("ij,jnt->int", line.turn, found[:3][:, index]) / per_metre(length)
     turned = np.einsum("ij,jnt->int", line.turn, found[3:][:, index])
     return NodeMotion(time, moved[1], moved[2], turned[0])
 
@@ -330,7 +334,7 @@ def equivalent_irregularity(step: Staggered, car: int = 1, wheel: int = 1) -> Hi
     if own is None:
         allowed = "no such (car, wheel) in this train"
         raise InputError("wheel", (car, wheel), allowed, "Both are counted from 1")
-    ahead = vehicle.length / 2 - own.x if s.excitation == "car" and vehicle is not None else 0.0
+    ahead = vehicle.front - own.x if s.excitation == "car" and vehicle is not None else 0.0
     x = s.speed * step.time - own.delay + ahead
     deck = np.zeros((2, len(step.time)))
     if step.felt is not None:

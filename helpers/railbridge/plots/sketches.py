@@ -57,7 +57,7 @@ def vehicle(vehicle: Vehicle, axes: Sequence[Axes] | None = None) -> np.ndarray:
     places, sides = outline.wheels("side"), outline.wheels("front")
     for a, b in zip(places[:-1], places[1:], strict=True):
         _dimension(side, a, b, -0.75, f"{b - a:.4g} m")
-    if long:
+    if long and vehicle.length:
         half = vehicle.length / 2
         _dimension(side, -half, half, -1.6, f"length {vehicle.length:.4g} m")
     if len(sides) > 1:

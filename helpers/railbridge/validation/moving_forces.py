@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from ..crossing import cross
 from ..decks import Deck
 from ..results import Crossing
 from ..trains import AxleTrain
-from .crossings import deck_of, run_force
+from .crossings import deck_of, quietly, run_force
 from .references import FORCE, force_beam, moving_force
 from .rows import Row
 
@@ -138,7 +137,7 @@ def axle_train_rows() -> list[Row]:
 def _left_by_axles(speed: float, axles: int, spacing: float, deck: Deck) -> float:
     """Cross with equal forces; return the amplitude of the first mode after the last has left."""
     train = AxleTrain(spacing * np.arange(axles), [FORCE] * axles)
-    run = cross(train, deck, speed=speed, interaction="rigid", time_step=1e-3, tail=2e-3)
+    run = quietly(train, deck, speed=speed, interaction="rigid", time_step=1e-3, tail=2e-3)
     return _free_amplitude(run)
 
 

@@ -1,0 +1,253 @@
+r"""What the moving loads give at every instant, and just before and after one of them jumps.
+
+An output that follows from the deck's state and loads (a `Line`) is
+
+    S(t) = sum over modes of S_m (q_m + beta q_m' - f_m / omega_m^2) + sum over loads of eta(x) F,
+
+with the influence line eta at the load's place x = V t - d. Where eta jumps or bends (an axle steps
+on, leaves, or passes the section) S does so between two samples. There the modes go on from the
+sample before, the forces F, which are smooth, are interpolated, and eta is taken on either side.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .coupling import Coupling, DeckState, ForcesAdded
+from .decks import Line
+from .response import moved_on
+from .trains import AnyTrain
+
+__all__ = ["MovingLoads", "static_extremes"]
+
+_JUST = 1e-9
+"""How far from a jump its two sides are taken, share of the deck."""
+_KINK = 1e-3
+"""Smallest change of slope that counts as a kink, share of the largest slope."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Met:
+    """What the deck meets just before and just after some instants.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s; before and after in turn.
+    modal : ndarray, shape (modes, n)
+        q + beta q' - f / omega^2 of every mode.
+    when : ndarray of int, shape (loads,)
+        Which time each load on the deck belongs to.
+    x : ndarray, shape (loads,)
+        m.
+    load : ndarray, shape (loads, 5)
+        F_y, F_z, M_x about the deck axis, M_y, M_z.
+    """
+
+    time: np.ndarray
+    modal: np.ndarray
+    when: np.ndarray
+    x: np.ndarray
+    load: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class MovingLoads:
+    """The loads of every station of a crossing at one iteration.
+
+    Attributes
+    ----------
+    coupling : Coupling
+    added : list of ndarray
+        See `ForcesAdded`.
+    known : DeckState or None
+        The deck's state under them, where it is known already.
+    """
+
+    coupling: Coupling
+    added: ForcesAdded
+    known: DeckState | None = None
+
+    @cached_property
+    def loads(self) -> list[np.ndarray]:
+        """The load of every station while it is on the deck, shape (3 or 5, count)."""
+        return self.coupling.station_loads(self.added)
+
+    @cached_property
+    def _around(self) -> np.ndarray:
+        """Loads from a sample before each station's first to one behind its last.
+
+        Shape (stations, 5, longest); a station that ends earlier keeps its last load.
+        """
+        found = self.coupling.station_loads(self.added, margin=1)
+        result = np.zeros((len(found), 5, max(load.shape[1] for load in found)))
+        for row, load in zip(result, found, strict=True):
+            row[: len(load), : load.shape[1]] = load
+            row[: len(load), load.shape[1] :] = load[:, -1:]
+        return result
+
+    def of_lines(self, lines: Sequence[Line]) -> np.ndarray:
+        """Return what influence lines give under the loads of every instant, standing still.
+
+        Shape (lines, n).
+        """
+        coupling = self.coupling
+        total = np.zeros((len(lines), len(coupling.time)))
+        stations, speed = coupling.loads, coupling.settings.speed
+        for which in range(len(stations.tables)):
+            # Stations that meet the samples alike share the line's values.
+            members = np.flatnonzero(stations.which == which)
+            longest = members[np.argmax(stations.counts[members])]
+            instants = coupling.time[stations.starts[longest] :][: stations.counts[longest]]
+            x = speed * instants - coupling.load_delays[longest]
+            x = np.clip(x, 0.0, coupling.deck.length)
+            values = np.array([line.influence(x)[:, 0].T for line in lines])
+            couples = len(self.loads[members[0]]) == 5
+            if couples:
+                slopes = np.array([line.influence(x, 1)[:, 0].T for line in lines])
+            for station in members:
+                load, count = self.loads[station], stations.counts[station]
+                part = total[:, stations.starts[station] :][:, :count]
+                for c in range(3):
+                    part += values[:, c, :count] * load[c]
+                if couples:
+                    part += slopes[:, 0, :count] * load[4] - slopes[:, 1, :count] * load[3]
+        return total
+
+    @cached_property
+    def state(self) -> DeckState:
+        """The deck's modal state under these loads."""
+        return self.known or self.coupling.deck_state(self.loads)
+
+    def at_jumps(self, line: Line) -> tuple[np.ndarray, np.ndarray]:
+        """Return an output just before and just after every instant at which it may jump or bend.
+
+        Returns
+        -------
+        time, values : ndarray, shape (2 instants,)
+            s, and the output.
+        """
+        met = self._met(tuple(_breaks(line, self.coupling.deck.length)))
+        part = np.einsum("kc,kc->k", line.influence(met.x)[:, 0], met.load[:, :3])
+        if np.any(met.load[:, 3:]):
+            slope = line.influence(met.x, 1)[:, 0]
+            part += slope[:, 0] * met.load[:, 4] - slope[:, 1] * met.load[:, 3]
+        return met.time, line.modal @ met.modal + np.bincount(met.when, part, len(met.time))
+
+    @cached_property
+    def _known(self) -> dict[tuple, _Met]:
+        return {}
+
+    def _met(self, breaks: tuple[float, ...]) -> _Met:
+        """Return the loads and the modes' part when any load passes any of some places (m)."""
+        if breaks not in self._known:
+            self._known[breaks] = self._met_at(np.array(breaks))
+        return self._known[breaks]
+
+    def _met_at(self, breaks: np.ndarray) -> _Met:
+        coupling, deck = self.coupling, self.coupling.deck
+        speed, step = coupling.settings.speed, coupling.settings.time_step
+        delays, last = coupling.load_delays, len(coupling.time) - 2
+        instants = np.unique((delays[:, None] + breaks).ravel() / speed)
+        instants = instants[(instants >= 0.0) & (instants <= coupling.time[-1])]
+        just = _JUST * deck.length / speed
+        time = (instants[:, None] + [-just, just]).ravel()
+        x = speed * time[:, None] - delays
+        when, station = np.nonzero((x >= 0.0) & (x <= deck.length))
+        x = x[when, station]
+        # From the last sample on, the modes go on under the forces of before the jump.
+        k = np.clip((np.repeat(instants, 2) / step).astype(int), 0, last)
+        span = np.maximum(np.repeat(instants, 2) - k * step, 0.0)
+        load = self._load_at(station, k[when], span[when] / step)
+        force = self._modal_force(load, x, when, len(time))
+        before = np.repeat(force[:, ::2], 2, axis=1)
+        omega, ratio = 2 * np.pi * deck.frequencies_hz, deck.damping_ratios
+        start = self.state.q[:, k], self.state.velocity[:, k]
+        q, rate = moved_on(omega, ratio, start, (self.state.modal_force[:, k], before), span)
+        modal = q + deck.internal_damping * rate - force / omega[:, None] ** 2
+        return _Met(time, modal, when, x, load)
+
+    def _load_at(self, station: np.ndarray, k: np.ndarray, s: np.ndarray) -> np.ndarray:
+        """Return the loads of stations between samples k and k + 1, at the share s of the way.
+
+        Shape (n, 5).
+        """
+        around, first = self._around, self.coupling.loads.starts[station] - 1
+        before, after = (
+            around[station, :, np.clip(i - first, 0, around.shape[2] - 1)] for i in (k, k + 1)
+        )
+        return before + s[:, None] * (after - before)
+
+    def _modal_force(
+        self, load: np.ndarray, x: np.ndarray, when: np.ndarray, instants: int
+    ) -> np.ndarray:
+        """Return the modal forces of loads at places x (m), summed up by instant (modes, n)."""
+        deck = self.coupling.deck
+        part = np.einsum("kmc,kc->mk", deck.shapes(x), load[:, :3])
+        if np.any(load[:, 3:]):
+            slope = deck.shapes(x, 1)
+            part += (slope[:, :, 0] * load[:, 4:] - slope[:, :, 1] * load[:, 3:4]).T
+        return np.array([np.bincount(when, own, instants) for own in part])
+
+
+def _breaks(line: Line, length: float) -> np.ndarray:
+    """Return the places, m, where an influence line jumps or bends, ends of the deck included."""
+    influence = line.influence
+    h = np.diff(influence.edges)[:, None]
+    powers = np.arange(4.0)[:, None, None]
+    start = influence.coefficients[:, 0, 0], influence.coefficients[:, 1, 0] / h
+    end = (
+        influence.coefficients.sum(axis=1)[:, 0],
+        (powers * influence.coefficients).sum(axis=1)[:, 0] / h,
+    )
+    bends = np.zeros(len(h) - 1, dtype=bool)
+    for before, after, least in zip(end, start, (1e-6, _KINK), strict=True):
+        size = np.abs(after).max(axis=0)
+        bends |= np.any(np.abs(after[1:] - before[:-1]) > least * size + 1e-300, axis=1)
+    return np.concatenate([[0.0], influence.edges[1:-1][bends], [length]])
+
+
+def static_extremes(train: AnyTrain, track_offset: float, line: Line) -> tuple[float, float]:
+    """Return the smallest and largest value while the static axle loads move over, V -> 0.
+
+    Zero at most and zero at least. Places of the train: steps of 1/500 of the deck, and every
+    axle just before and behind every end of the line's pieces that may be a kink or a jump, so
+    that peaks are met exactly.
+
+    Parameters
+    ----------
+    train : AnyTrain
+    track_offset : float
+        m.
+    line : Line
+        Its influence line runs along the deck.
+    """
+    edges, axles = line.influence.edges, train.placed_axles
+    length = edges[-1]
+    delays = np.array([axle.delay for axle in axles])
+    loads = -np.array(
+        [
+            [0.0, axle.static_load, sum(w.static_load * (track_offset + w.y) for w in axle.wheels)]
+            for axle in axles
+        ]
+    )
+    grid = np.linspace(0.0, length, 501)
+    near = np.concatenate([edges - _JUST * length, edges + _JUST * length])
+    near = near[(near >= 0.0) & (near <= length)]
+    # The peaks of the line itself decide: only its kinks next to the largest values matter.
+    size = np.abs(line.influence(near)[:, 0, 1:]).max(axis=1)
+    near = near[np.argsort(size)[-8:]]
+    first = np.arange(0.0, length + delays.max() + grid[1], grid[1])
+    first = np.unique(np.concatenate([first, (delays[:, None] + near).ravel()]))
+    total = np.zeros(len(first))
+    for delay, load in zip(delays, loads, strict=True):
+        x = first - delay
+        on = (x >= 0.0) & (x <= length)
+        total[on] += line.influence(x[on])[:, 0] @ load
+    noise = 1e-12 * float(np.abs(loads).max() * np.abs(line.influence(grid)).max())
+    low, high = float(total.min()), float(total.max())
+    return (low if low < -noise else 0.0), (high if high > noise else 0.0)

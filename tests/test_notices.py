@@ -1,0 +1,107 @@
+"""What must be known before a result is read."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import railbridge as rb
+from railbridge.notices import remarks, unsettled
+
+CAR = rb.vehicle("xia2000")
+DECK = rb.deck("viaduct36")
+
+
+def said(run):
+    return [str(remark) for remark in remarks(run)]
+
+
+def test_a_plain_crossing_leaves_nothing_to_say():
+    track = rb.Track(rb.Harmonic(5e-3, wavelength=14.4))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert said(rb.cross(rb.Train(CAR), DECK, track, speed=20.0)) == []
+
+
+def light(passes):
+    """A deck so light that the passes grow."""
+    deck = rb.Beam("light", (60.0,), 3e3, 3e10).deck(6, 0.01)
+    train = rb.Train(CAR, cars=8)
+    return rb.cross(train, deck, speed=60.0, iterations=passes, time_step=4e-3)
+
+
+def test_passes_that_diverge_are_no_solution():
+    with pytest.warns(UserWarning, match="they diverge. These numbers are not a solution"):
+        run = light(8)
+    assert unsettled(run) and run.changes[-1] > min(run.changes)
+    text = next(t for t in said(run) if t.startswith("iterations"))
+    assert text.startswith(f"iterations = 8: the last pass still changed the wheel forces by "
+                           f"{run.changes[-1]:.2g}, pass ")  # fmt: skip
+
+
+def test_a_few_passes_that_come_closer_are_told_of_without_a_warning():
+    track = rb.Track(rb.Harmonic(5e-3, wavelength=14.4))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        run = rb.cross(rb.Train(CAR), DECK, track, speed=20.0, iterations=4)
+    assert not unsettled(run)
+    assert said(run) == [
+        f"iterations = 4: the last pass still changed the wheel forces by {run.changes[-1]:.2g} "
+        "of their dynamic part."
+    ]
+
+
+def test_a_wheel_that_pulls_is_named_with_place_and_time():
+    track = rb.Track(rb.Harmonic(20e-3, wavelength=2.5))
+    with pytest.warns(UserWarning, match="it would lift off"):
+        run = rb.cross(rb.Train(CAR), DECK, track, speed=60.0, lead_in=100.0)
+    text = next(t for t in said(run) if "pulls" in t)
+    i, k = np.unravel_index(np.argmax(run.wheel_unloading), run.wheel_unloading.shape)
+    wheel, force = run.train.wheels[i], run.wheel_forces[i, 1, k]
+    assert force > 0.0
+    assert text.startswith(
+        f"Wheel {wheel.number} of car 1 pulls on the rail by {force / 1e3:.3g} kN (unloading "
+    )
+    assert f" at t = {run.time[k]:.4g} s, " in text
+
+
+def test_a_bearing_that_would_hold_the_deck_down_is_named():
+    """Two spans, one loaded: the far end of the light one is lifted."""
+    deck = rb.Beam("two", (10.0, 40.0), 2e3, 4e10).deck(damping=0.02)
+    with pytest.warns(UserWarning, match="it would lift"):
+        run = rb.cross(rb.AxleTrain([0.0, 3.0], [2e5, 2e5]), deck, speed=20.0)
+    (text,) = (t for t in said(run) if "Bearing" in t)
+    history = run.bearing_forces(self_weight=True)[1]
+    low, t = history.extremes("force_z")[0]
+    assert text.startswith(
+        f"Bearing 1 at x = 0, y = 0 m would have to hold the deck down by {-low / 1e3:.3g} kN at "
+        f"t = {t:.4g} s, its own weight counted"
+    )
+    heavy = rb.Beam("two", (30.0, 30.0), 2e4, 4e10).deck(damping=0.02)
+    run = rb.cross(rb.AxleTrain([0.0, 3.0], [2e4, 2e4]), heavy, speed=20.0)
+    assert not [t for t in said(run) if "Bearing" in t]
+
+
+def test_a_coarse_step_is_told_of_and_the_step_that_would_do():
+    run = rb.cross(rb.AxleTrain([0.0], [1e5]), DECK, speed=20.0, time_step=5e-3)
+    (text,) = said(run)
+    assert text.startswith("time_step = 0.005 s leaves 1.7 samples in a period of the deck's high")
+    most = float(text.split("At most ")[1].split(" s")[0])
+    fine = rb.cross(rb.AxleTrain([0.0], [1e5]), DECK, speed=20.0, time_step=0.99 * most)
+    assert said(fine) == []
+
+
+def test_ends_that_move_spoil_accelerations_and_that_is_said():
+    soft = tuple(rb.Bearing(x, ("y", "roll"), stiffness={"z": 2e9}) for x in (0.0, 30.0))
+    deck = rb.Beam("soft", (30.0,), 10e3, 5e10, bearings=soft).deck(damping=0.02)
+    run = rb.cross(rb.AxleTrain([0.0], [1e5]), deck, speed=40.0)
+    assert any(t.startswith("An end of the deck moves") for t in said(run))
+
+
+def test_a_car_that_carries_nothing_has_no_unloading():
+    body = rb.Body("mass", 1e4, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), ("y",))
+    spring = rb.Spring("mass", "rail", (0.0, 0.0, 0.0), (1e6, 0.0), (1e4, 0.0))
+    train = rb.Train(rb.Vehicle("lateral", (body,), (spring,), 10.0))
+    track = rb.Track(lateral=rb.Harmonic(1e-3, wavelength=10.0))
+    run = rb.cross(train, DECK, track, speed=20.0)
+    assert np.isnan(run.wheel_unloading).all() and said(run) == []
