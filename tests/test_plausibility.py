@@ -13,10 +13,11 @@ import pytest
 from modal_files import EXAMPLE, cells, change
 
 import railbridge as rb
-from railbridge.bounds import BOUNDS, first_frequencies, frequency_off
+from railbridge.beams import Section
+from railbridge.bounds import BOUNDS, doubt, first_frequencies, frequency_off
 from railbridge.cases import shelf
 from railbridge.errors import InputWarning
-from railbridge.plausibility import doubts
+from railbridge.plausibility import doubts, scale_in_doubt
 from railbridge.settings import check
 from railbridge.validation import crossings, references, scenarios
 
@@ -238,7 +239,7 @@ SLIPS = [
     car("masses in t", "given in t", car_body_mass=50.99, bogie_mass=4.36),
     car("mass in g", "given in g", car_body_mass=50.99e6),
     car("length in mm", "mm", length=22500.0),
-    car("axle spacing in mm", "axle distance.*in [mc]m", axle_spacing=2500.0),
+    replace(car("axle spacing in mm", "bogies overlap", axle_spacing=2500.0), field="axle_spacing"),
     car("bogie spacing in mm", "mm", bogie_spacing=15600.0),
     car("wheels in mm from the middle", "mm", primary_half_width=980.0),
     car("springs in kN/m", "kN/m", primary_vertical_stiffness=2976.0,
@@ -528,19 +529,20 @@ def test_modes_of_several_spans_are_held_against_one_of_them():
 
 
 def test_the_first_vertical_mode_is_held_against_the_span_not_the_first():
-    """A lateral mode on tall piers may be low; vertical modes in rad/s hide behind it."""
-    deck = rb.deck("viaduct36")
-    hidden = replace(
-        deck, frequencies_hz=np.sort([0.9, *deck.frequencies_hz[1:] * 10]), recovery=None
+    """A lateral mode on tall piers may be low; a vertical one in rad/s hides behind it."""
+    deck = replace(rb.deck("viaduct36"), recovery=None, mass_per_metre=None)
+    first = (
+        deck.mode_names.index("vertical bending 1"),
+        deck.mode_names.index("lateral bending 1"),
     )
-    names = [replace(deck, frequencies_hz=deck.frequencies_hz, recovery=None), hidden]
-    assert doubted(names[0]) == []
-    sideways = deck.shapes.coefficients.copy()
-    sideways[:, :, 0] = sideways[:, :, 0][..., [1, 0, 2]]
-    swapped = replace(hidden, shapes=replace(deck.shapes, coefficients=sideways))
-    assert any(
-        "deck.frequencies_hz gives a first vertical frequency" in s for s in doubted(swapped)
-    )
+    assert first[0] == 0
+    coefficients = deck.shapes.coefficients[:, :, [first[1], first[0]]]
+    shapes = replace(deck.shapes, coefficients=coefficients)
+    two = {"shapes": shapes, "damping_ratios": [0.03, 0.03], "mode_names": ("lateral", "vertical")}
+    assert doubted(replace(deck, frequencies_hz=[0.9, 3.307], **two)) == []
+    (said,) = doubted(replace(deck, frequencies_hz=[5.65, 20.78], **two))
+    assert "deck.frequencies_hz gives a first vertical frequency of 20.8 Hz" in said
+    assert "given in rad/s" in said
 
 
 # ---- every door
@@ -553,6 +555,15 @@ def test_python_warns_and_says_it_in_the_remarks():
         run = rb.cross(train, deck, speed=40.0, interaction="rigid")
     assert len(seen) == 1
     assert rb.summarize(run, [10.0])["remarks"][0] == str(seen[0].message)
+
+
+def test_a_beam_of_python_leaves_what_its_deck_does_not_show():
+    beam = rb.Beam("beam", (20.0,), 9000.0, 2e10, torsional_stiffness=3e10, polar_inertia=50.0)
+    deck = beam.deck(damping=0.01)
+    assert [r.field for r in beam.remarks] == [r.field for r in deck.remarks] == ["polar_inertia"]
+    with pytest.warns(InputWarning, match=r"deck.polar_inertia = 50 .* given in t m\?") as seen:
+        rb.cross(rb.AxleTrain([0.0, 3.0], [170e3] * 2), deck, speed=40.0, interaction="rigid")
+    assert len([w for w in seen if issubclass(w.category, InputWarning)]) == 1
 
 
 def test_a_case_warns_when_run_not_when_computed(recwarn):
@@ -579,6 +590,57 @@ def test_doubts_are_in_the_words_of_mixed_trains_too(folder):
     case = made("viaduct", {"train.vehicle": None, "train.cars": ["xia2000", "./car.csv"]})
     assert [d.field for d in case.doubts] == ["train.cars"]
     assert "(car): mass of car = 50.99 kg" in str(case.doubts[0])
+
+
+TRAINS = {
+    "Load Model 71": ([0.0, 1.6, 3.2, 4.8], 250e3),
+    "wagons of ore": ([0.0, 1.78, 8.0, 9.78, 12.0, 13.78, 20.0, 21.78], 392e3),
+    "two trams, empty": ([0.0, 1.8, 7.5, 9.3, 50.0, 51.8, 57.5, 59.3], 30e3),
+    "articulated": ([0.0, 3.0, 14.0, 17.0, 23.0, 26.0, 44.7, 47.7], 170e3),
+    "one force a car": (list(22.5 * np.arange(8)), 585.8e3),
+    "two trains": ([0.0, 3.0, 300.0, 303.0], 170e3),
+}
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_trains_that_exist_pass_without_a_word(name):
+    places, load = TRAINS[name]
+    assert doubted(rb.deck("viaduct36"), rb.AxleTrain(places, [load] * len(places))) == []
+
+
+def test_steel_may_carry_the_track_in_its_density():
+    """Where ballast and slab are spread over a small section: 40 t/m3 for steel, not concrete."""
+    given = {"poisson_ratio": 0.3, "area": 0.3, "second_moment_vertical": 0.1}
+    given |= {"second_moment_lateral": 0.4, "torsion_constant": 1e-3, "density": 4e4}
+    assert Section(youngs_modulus=2.1e11, **given).remarks == ()
+    assert [r.field for r in Section(youngs_modulus=3e10, **given).remarks] == ["density"]
+
+
+def test_a_frequency_follows_from_a_sag_where_no_vertical_mode_is_kept():
+    """17.75 / sqrt(28.8 mm) is 3.31 Hz: the deck is sound without its vertical modes, too."""
+    deck = rb.deck("viaduct36")
+    kept = [i for i, name in enumerate(deck.mode_names) if not name.startswith("vertical")]
+    shapes = replace(deck.shapes, coefficients=deck.shapes.coefficients[:, :, kept])
+    cut = {"shapes": shapes, "mode_names": tuple(deck.mode_names[i] for i in kept)}
+    cut |= {n: getattr(deck, n)[kept] for n in ("frequencies_hz", "damping_ratios")}
+    assert scale_in_doubt(replace(deck, **cut)) == []
+    soft = rb.Beam("soft", (36.0,), 12e3, 8.9e7).deck(3)
+    still = replace(soft.shapes, coefficients=0.0 * soft.shapes.coefficients)
+    still.coefficients[..., 0] = soft.shapes.coefficients[..., 1]
+    (said,) = scale_in_doubt(replace(soft, shapes=still))
+    assert "1000 times too soft" in str(said)
+
+
+@pytest.mark.parametrize("name", BOUNDS)
+def test_a_value_at_a_bound_passes_and_one_beyond_is_doubted(name):
+    bound = BOUNDS[name]
+    for end, beyond in ((bound.low, 0.999), (bound.high, 1.001)):
+        if 0.0 < end < np.inf:
+            for sign in (1.0, -1.0):
+                assert doubt(name, "x", sign * end) == []
+                (said,) = doubt(name, "x", sign * end * beyond)
+                assert str(said).startswith("x = ") and str(said).endswith("?")
+    assert doubt(name, "x", None) == []
 
 
 def test_doubts_are_cheap():

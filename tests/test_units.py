@@ -29,10 +29,68 @@ def test_a_unit_belongs_to_one_dimension_and_the_first_is_that_of_si():
     assert all(next(iter(family.values())) == 1.0 for family in units.UNITS.values())
 
 
+IN, FT, LB = 0.0254, 0.3048, 0.45359237
+LBF = LB * 9.80665  # one pound under standard gravity
+KIP = 1000 * LBF
+BOOK = {
+    "number": {"": 1.0, "-": 1.0, "1": 1.0, "rad": 1.0, "%": 1 / 100},
+    "length": {"m": 1.0, "cm": 1 / 100, "mm": 1 / 1000, "km": 1000, "in": IN, "ft": FT},
+    # The slug is the mass that one pound of force gives one foot/s2; likewise all force s2/length.
+    "mass": {
+        "kg": 1.0, "t": 1000, "lb": LB, "slug": LBF / FT, "N s2/mm": 1000, "kN s2/m": 1000,
+        "kN s2/mm": 10**6, "lbf s2/in": LBF / IN, "kip s2/in": KIP / IN, "kip s2/ft": KIP / FT,
+    },
+    "area": {"m2": 1.0, "cm2": 1e-4, "mm2": 1e-6, "in2": IN**2, "ft2": FT**2},
+    "second moment of area": {"m4": 1.0, "cm4": 1e-8, "mm4": 1e-12, "in4": IN**4, "ft4": FT**4},
+    "mass per length": {"kg/m": 1.0, "t/m": 1000, "lb/ft": LB / FT},
+    "density": {"kg/m3": 1.0, "t/m3": 1000, "t/mm3": 1e12, "lb/ft3": LB / FT**3},
+    "moment of inertia": {
+        "kg m2": 1.0, "t m2": 1000, "kg mm2": 1e-6, "t mm2": 1e-3, "kN s2 m": 1000,
+        "lb ft2": LB * FT**2, "slug ft2": LBF * FT, "lbf s2 in": LBF * IN, "kip s2 in": KIP * IN,
+    },
+    "stiffness": {
+        "N/m": 1.0, "kN/m": 1000, "MN/m": 10**6, "N/mm": 1000, "kN/mm": 10**6, "lbf/in": LBF / IN,
+        "lbf/ft": LBF / FT, "kip/in": KIP / IN, "kip/ft": KIP / FT,
+    },
+    "damping": {
+        "N s/m": 1.0, "kN s/m": 1000, "MN s/m": 10**6, "N s/mm": 1000, "kN s/mm": 10**6,
+        "lbf s/in": LBF / IN, "lbf s/ft": LBF / FT, "kip s/in": KIP / IN,
+    },
+    "bending stiffness": {
+        "N m2": 1.0, "kN m2": 1000, "MN m2": 10**6, "GN m2": 10**9, "N mm2": 1e-6, "kN mm2": 1e-3,
+        "lbf in2": LBF * IN**2, "kip in2": KIP * IN**2, "kip ft2": KIP * FT**2,
+    },
+    "frequency": {"Hz": 1.0, "rad/s": 0.15915494309189535},
+    "stress": {
+        "Pa": 1.0, "kPa": 1000, "MPa": 10**6, "GPa": 10**9, "N/mm2": 10**6, "kN/m2": 1000,
+        "psi": LBF / IN**2, "ksi": KIP / IN**2,
+    },
+    "force": {"N": 1.0, "kN": 1000, "MN": 10**6, "lbf": LBF, "kip": KIP},
+    "speed": {"m/s": 1.0, "km/h": 1000 / 3600, "ft/s": FT, "mph": 5280 * FT / 3600},
+    "time": {"s": 1.0, "ms": 1 / 1000},
+}  # fmt: skip
+
+
+def test_the_book_has_every_unit():
+    """A new unit needs its line above."""
+    assert {d: set(family) for d, family in units.UNITS.items()} == {
+        d: set(family) for d, family in BOOK.items()
+    }
+
+
+@pytest.mark.parametrize(
+    ("dimension", "unit"), [(name, unit) for name, family in BOOK.items() for unit in family]
+)
+def test_a_unit_is_worth_what_the_book_says(dimension, unit):
+    si = units.units_of(dimension)[0]
+    known = 3.0 * BOOK[dimension][unit]
+    assert units.quantity("x", 3.0, unit, si) == pytest.approx(known, rel=1e-7)
+
+
 def test_units_of_a_dimension_are_named():
     assert units.units_of("mass")[:4] == ("kg", "t", "lb", "slug")
     assert units.units_of("length") == ("m", "mm", "cm", "km", "in", "ft")
-    with pytest.raises(InputError, match="Did you mean 'length'"):
+    with pytest.raises(InputError, match="^dimension = 'lenght'.*Did you mean 'length'"):
         units.units_of("lenght")
 
 

@@ -74,6 +74,20 @@ def test_weight_and_static_loads():
     assert heavy.weight == pytest.approx(CAR.weight + 4 * 9810.0)
 
 
+def test_where_the_inertia_of_wheelsets_would_matter():
+    """What the docstring of `static_wheelset_mass` says, by Newton: a wheel that follows the rail's
+    r sin(wt) presses on it by m w^2 r, as the whole car does far below its bounce."""
+
+    def pressed(frequency, wheelsets=0.0):
+        omega = 2 * np.pi * frequency
+        return CAR.transfer(frequency)[:, 1, :, 1].sum() + wheelsets * omega**2
+
+    assert pressed(0.05) == pytest.approx(CAR.weight / 9.81 * (2 * np.pi * 0.05) ** 2, rel=2e-3)
+    for frequency, percent in (1.389, -0.3), (2.0, -14), (4.2, 64):
+        change = 100 * abs(pressed(frequency, 4 * 1800.0)) / abs(pressed(frequency)) - 100
+        assert change == pytest.approx(percent, abs=0.5 if abs(percent) > 1 else 0.1), frequency
+
+
 def test_wheels_are_ordered_front_to_back_left_before_right():
     places = [(c.x, c.y) for c in CAR.contacts]
     assert [x for x, _ in places] == pytest.approx(np.repeat([9.05, 6.55, -6.55, -9.05], 2))
@@ -152,6 +166,15 @@ def test_planar_car_of_the_data_file_is_the_car_s_plane():
     for f in made.modes().frequencies_hz:
         assert np.min(np.abs(CAR.modes().frequencies_hz - f)) < 1e-9 * f
     assert rb.planar_car(rb.vehicle("sprung_mass")).labels == ("mass z",)
+
+
+def test_a_planar_car_weighs_what_the_car_does_wheelsets_included():
+    heavy = replace(CAR, static_wheelset_mass=1500.0)
+    plane = planar_car(heavy)
+    assert plane.static_wheelset_mass == 1500.0
+    assert plane.weight == pytest.approx(heavy.weight) and heavy.weight > CAR.weight + 5e4
+    assert [c.static_load for c in plane.contacts] == pytest.approx([heavy.weight / 4] * 4)
+    assert plane.length == CAR.length and plane.name == f"{CAR.name} planar"
 
 
 def test_springs_in_series_by_hand():

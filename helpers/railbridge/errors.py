@@ -25,16 +25,20 @@ from contextlib import contextmanager
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 __all__ = [
     "FieldType", "InputError", "InputWarning", "ROUNDED", "Range", "Remark", "ResultWarning",
-    "boolean", "brief", "check_fields", "choice", "did_you_mean", "field_types", "frozen",
-    "integer", "joined", "keys", "number", "numbers", "place", "places", "plain", "printable",
-    "table", "text", "within", "written",
+    "boolean", "brief", "check_fields", "choice", "clipped", "did_you_mean", "field_types",
+    "frozen", "instance", "instances", "integer", "is_list", "joined", "keys", "number", "numbers",
+    "place", "places", "plain", "printable", "table", "text", "within",
+    "written",
 ]  # fmt: skip
+
+
+_Kind = TypeVar("_Kind")
 
 
 class InputError(ValueError):
@@ -57,10 +61,10 @@ class InputError(ValueError):
     def __init__(
         self, field: str, value: Any, allowed: str, remedy: str = "", source: str = ""
     ) -> None:
-        place = ": ".join(part for part in (source, field) if part)
+        place = ": ".join(clipped(part, 160) for part in (source, field) if part)
         given = "" if value is None else f" = {_short(value)}"
         advice = f" {remedy}" + "." * (not remedy.endswith("?")) if remedy else ""
-        super().__init__(printable(f"{place}{given}: {allowed}.{advice}"))
+        super().__init__(printable(f"{place}{given}: {clipped(allowed, 400)}.{advice}"))
         self.field, self.value, self.allowed, self.remedy = field, value, allowed, remedy
         self.source = source
 
@@ -168,6 +172,12 @@ def printable(text: str) -> str:
     return "".join(shown)
 
 
+def clipped(text: str, most: int) -> str:
+    """Return a text without its middle where it is longer than `most` letters."""
+    half = (most - 5) // 2
+    return text if len(text) <= most else f"{text[:half]} ... {text[-half:]}"
+
+
 def brief(thing: Any) -> str:
     """Return a representation of a dataclass that fits into three lines.
 
@@ -268,7 +278,7 @@ def integer(field: str, value: Any, *, least: int = 0, **limits: Any) -> int:
 
 def numbers(field: str, values: Any, *, count: int | None = None, **limits: Any) -> np.ndarray:
     """Return `values` as a 1-D float array, each within limits, or raise `InputError`."""
-    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
+    if not is_list(values):
         length = f" of length {count}" if count else ""
         raise InputError(field, values, f"must be a list of numbers{length}")
     bounds = Range(**limits)
@@ -318,6 +328,27 @@ def places(
 
 
 # ---- other kinds of values
+
+
+def is_list(value: Any) -> bool:
+    """Whether a value lists others: no text, no mapping, and no array of one number."""
+    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable):
+        return False
+    return not isinstance(value, np.ndarray) or value.ndim > 0
+
+
+def instance(field: str, value: Any, kind: type[_Kind]) -> _Kind:
+    """Return `value` if it is of a kind (``Vehicle``, ``Deck``), or raise `InputError`."""
+    if not isinstance(value, kind):
+        raise InputError(field, value, f"must be a {kind.__name__}")
+    return value
+
+
+def instances(field: str, values: Any, kind: type[_Kind]) -> tuple[_Kind, ...]:
+    """Return a list of objects of one kind as a tuple, or raise `InputError`."""
+    if not is_list(values):
+        raise InputError(field, values, f"must be a list of {kind.__name__} objects")
+    return tuple(instance(f"{field}[{i}]", v, kind) for i, v in enumerate(values, start=1))
 
 
 def boolean(field: str, value: Any) -> bool:

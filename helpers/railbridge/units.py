@@ -198,7 +198,7 @@ def written(field: str, text: str, comma: bool = False) -> float:
         allowed = "has a point where other numbers of the file have a decimal comma"
         remedy = "Use one decimal mark, and no thousands mark"
         raise errors.InputError(field, text, allowed, remedy)
-    if _NUMERAL.fullmatch(text) and math.isfinite(float(text)):
+    if _NUMERAL.fullmatch(text) and abs(float(text)) <= 1e30:  # as `Range` has it
         return float(text)
     allowed, remedy = "must be a finite number", _MARKS
     if not text:

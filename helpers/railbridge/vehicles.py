@@ -198,9 +198,10 @@ class Vehicle:
         m over couplers; the default distance between cars. May be left out where trains are given
         their car spacing.
     static_wheelset_mass : float
-        kg of one wheelset, carried straight by the rail. Only its weight counts. Wrong above the
-        frequency where the wheelset's inertia force reaches the contact force, about
-        sqrt(k/m)/(2 pi) of the primary suspension.
+        kg of one wheelset, carried straight by the rail. Only its weight counts, not its inertia.
+        That matters once waves shake the car above its bounce, where the springs press little:
+        1800 kg under `xia2000`, wheels in phase, would change the force by -0.3 % at 1.389 Hz, by
+        -14 % at 2 Hz and by +64 % at 4.2 Hz.
 
     Raises
     ------
@@ -219,8 +220,11 @@ class Vehicle:
     labels: tuple[str, ...] = field(init=False, default=())
 
     def __post_init__(self) -> None:
+        errors.text("name", self.name)
         with within(source=f"vehicle {self.name}"):
             check_fields(self)
+            object.__setattr__(self, "bodies", errors.instances("bodies", self.bodies, Body))
+            object.__setattr__(self, "springs", errors.instances("springs", self.springs, Spring))
             _refuse_wrong_ends(self)
             labels = tuple(
                 f"{b.name} {f}" for b in self.bodies for f in FREEDOMS if f in b.freedoms
@@ -435,6 +439,10 @@ class Vehicle:
     def transfer(self, frequency_hz: float) -> np.ndarray:
         """Return the steady contact forces for unit harmonic support motion.
 
+        Parameters
+        ----------
+        frequency_hz : float
+
         Returns
         -------
         ndarray, shape (contacts, 2, contacts, 2), complex
@@ -442,7 +450,7 @@ class Vehicle:
             direction; lateral before vertical.
         """
         rows = self._contact_rows.reshape(-1, len(self.labels))
-        s = 2j * np.pi * frequency_hz
+        s = 2j * np.pi * errors.number("frequency_hz", frequency_hz, unit="Hz")
         dynamic = self.mass_matrix * s**2 + self.damping_matrix * s + self.stiffness_matrix
         impedance = (self.contact_stiffness + self.contact_damping * s).ravel()
         through = rows @ np.linalg.solve(dynamic, rows.T)

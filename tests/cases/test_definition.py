@@ -232,16 +232,6 @@ def test_a_vehicle_file_of_the_same_name_elsewhere_is_another_vehicle(tmp_path, 
         assert rb.case("paper").replace(changes).train.vehicle.length == length
 
 
-def test_many_places_count_for_the_size_of_a_run():
-    """A run that just fits does not with the histories of a hundred places."""
-    fixed = 1.2e8
-    needed = rb.settings.bytes_needed(PAPER.train, PAPER.deck, PAPER.settings)
-    step = PAPER.settings.time_step * (needed - fixed) / (1.8e9 - fixed)
-    fits = PAPER.replace({"run.time_step": step})
-    with pytest.raises(rb.InputError, match=r"^output\.points = 100: a run with so many places"):
-        fits.replace({"output.points": [0.36 * i for i in range(100)]})
-
-
 @pytest.mark.parametrize(
     "deck",
     [
@@ -279,3 +269,13 @@ def test_wheels_and_tracks_at_the_very_edge_of_a_deck_are_on_it():
         assert found.settings.track_offset == pytest.approx(3.3)
     with pytest.raises(rb.InputError, match=r"deck\.tracks\.edge = 3\.30001.*at most 3\.3 m"):
         changed(deck={"width": 6.6, "tracks": {"edge": 3.30001}})
+
+
+def test_many_places_count_for_the_size_of_a_run():
+    """A run that just fits does not with the histories of a hundred places."""
+    fixed = 1.2e8
+    needed = rb.settings.bytes_needed(PAPER.train, PAPER.deck, PAPER.settings)
+    step = PAPER.settings.time_step * (needed - fixed) / (1.8e9 - fixed)
+    fits = PAPER.replace({"run.time_step": step})
+    with pytest.raises(rb.InputError, match=r"^output\.points = 100: a run with so many places"):
+        fits.replace({"output.points": [0.36 * i for i in range(100)]})

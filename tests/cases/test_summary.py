@@ -3,11 +3,13 @@
 import dataclasses
 import json
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import railbridge as rb
+from railbridge.cases import summary
 from railbridge.cases.summary import QUANTITIES, histories, summarize, to_json
 from railbridge.results import ENVELOPE
 from railbridge.settings import bytes_needed
@@ -282,3 +284,25 @@ def test_the_papers_case_in_numbers():
         865e3, rel=0.02
     )
     assert point["displacement_z"]["static"] == pytest.approx(-6.534e-3, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("statics", "extremes", "side", "factor"),
+    [
+        # Both sides alike but for round-off, as for shear at mid-span: the larger dynamic value.
+        ((-100.000001, 100.0), (-103.0, 110.0), 100.0, 1.10),
+        ((-100.0, 100.000001), (-115.0, 110.0), -100.0, 1.15),
+        # Otherwise the side of the larger static value, whatever the dynamic ones.
+        ((-50.0, 100.0), (-200.0, 90.0), 100.0, 0.9),
+        ((-100.0, 50.0), (-90.0, 200.0), -100.0, 0.9),
+        ((-99.9, 100.0), (-200.0, 90.0), 100.0, 0.9),
+    ],
+)
+def test_the_dynamic_factor_is_that_of_the_side_with_the_larger_static_value(
+    statics, extremes, side, factor
+):
+    run = SimpleNamespace(time=np.arange(4.0), static_extremes=lambda line: statics)
+    history = {"shear_vertical": np.array([0.0, extremes[0], extremes[1], 0.0])}
+    entry = summary._entries(run, history, {"shear_vertical": object()})["shear_vertical"]
+    assert entry["static"] == pytest.approx(side, rel=1e-6)
+    assert entry["dynamic_factor"] == pytest.approx(factor, rel=1e-6)

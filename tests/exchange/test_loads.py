@@ -1,6 +1,8 @@
 """Loads on another program's nodes: its answers against ours, statics, and the files."""
 
+import csv
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -141,6 +143,16 @@ def test_other_refusals_name_the_field(ours, tmp_path):
         export_loads(ours, tmp_path / "x.csv", AXIS, form="nastran")
     with pytest.raises(rb.InputError, match="its folder does not exist"):
         export_loads(ours, tmp_path / "no" / "x.csv", AXIS)
+
+
+@pytest.mark.parametrize("label", ["Tr\u00e4ger", "a b", "1,2", "x\ny"])
+def test_nodes_that_an_abaqus_file_cannot_name_are_refused(ours, tmp_path, label):
+    named = replace(AXIS, labels=tuple((f"{label}{i}",) for i in range(len(AXIS.x))))
+    with pytest.raises(rb.InputError, match="cannot name a node in an Abaqus file"):
+        export_loads(ours, tmp_path / "x.inp", named, form="abaqus")
+    export_loads(ours, tmp_path / "x.csv", named)
+    with (tmp_path / "x.csv").open(encoding="utf-8", newline="") as file:
+        assert f"node {label}" in next(csv.reader(file))[1]
 
 
 def test_bare_axles_go_out_too():

@@ -2,6 +2,7 @@
 
 import dataclasses
 import shutil
+import warnings
 
 import numpy as np
 import pytest
@@ -140,3 +141,25 @@ def test_a_rail_that_stands_still_and_damping_that_is_none_are_refused():
     still = dataclasses.replace(model, shapes=0.0 * model.shapes)
     with pytest.raises(rb.InputError, match="line: stands still in every mode"):
         deck_from_modes(still, line)
+
+
+def test_modes_that_are_left_out_take_their_damping_with_them():
+    """A mode in the middle that does not move the rail: the others keep their own ratios."""
+    model = read(EXAMPLE)
+    line = model.nodes.line({"y": 0.0, "z": 0.0})
+    shapes = np.array(model.shapes)
+    shapes[2] = 0.0
+    own = np.linspace(0.01, 0.1, len(shapes))
+    still = dataclasses.replace(model, shapes=shapes, damping_ratios=own)
+    kept = np.delete(np.arange(len(shapes)), 2)
+    alpha, beta = rb.rayleigh(0.03, (3.3, 16.3))
+    omega = 2 * np.pi * model.frequencies_hz[kept]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # masses do not fit a mode of zeros
+        decks = [deck_from_modes(still, line, damping=d) for d in (None, (alpha, beta), 0.02)]
+    by_rayleigh = alpha / (2 * omega) + beta * omega / 2
+    for deck, ratios in zip(decks, (own[kept], by_rayleigh, 0.02), strict=True):
+        assert deck.frequencies_hz == pytest.approx(model.frequencies_hz[kept])
+        assert deck.damping_ratios == pytest.approx(ratios * np.ones(len(kept)))
+    few = deck_from_modes(still, line, damping=(alpha, beta), count=4)
+    assert few.damping_ratios == pytest.approx(by_rayleigh[:4])

@@ -16,12 +16,12 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import eigh
+from scipy.linalg import LinAlgError, eigh
 from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.csgraph import connected_components
-from scipy.sparse.linalg import SuperLU
+from scipy.sparse.linalg import ArpackError, SuperLU
 
-from ..errors import brief
+from ..errors import InputError, brief
 from ..guideways import PiecewiseCubic
 from ..settings import refuse_bytes
 from . import elements
@@ -302,11 +302,28 @@ class Mesh:
         groups = [np.flatnonzero(group == g) for g in range(count)]
         asked = wanted
         while True:
-            modes = self._modes_of(groups, *_solved(k, m, groups, asked))
+            try:
+                solved, order = _solved(k, m, groups, asked)
+            except (LinAlgError, ArpackError, RuntimeError):  # a matrix is singular to round-off
+                raise self._ill_scaled() from None
+            modes = self._modes_of(groups, solved, order)
+            vectors = modes.vectors[:, : 2 * (wanted or 10)]
+            # Without round-off the energies of a mode give its frequency again.
+            squares = (2 * np.pi * modes.frequencies_hz[: vectors.shape[1]]) ** 2
+            again = np.sum(vectors * (self.stiffness @ vectors), axis=0)
+            if not np.all(np.abs(again - squares) <= 1e-3 * squares):
+                raise self._ill_scaled()
             enough = wanted is None or len(modes.names) == k.shape[0]
             if enough or int(np.sum(modes.excitable)) >= wanted:
                 return modes
             asked *= 2
+
+    def _ill_scaled(self) -> InputError:
+        allowed = "is so far from the deck's mass, other stiffnesses and springs that round-off "
+        allowed += "spoils its modes"
+        given = self.beam.bending_stiffness_vertical
+        remedy = "Check the units of all of them: N m2, N, N/m, kg/m"
+        return InputError("bending_stiffness_vertical", given, allowed, remedy)
 
     def _modes_of(
         self,
@@ -323,7 +340,8 @@ class Mesh:
             own = np.flatnonzero(whose[order] == g)
             vectors[:, own] = self.basis[:, freedoms] @ shapes[:, order[own] - firsts[g]]
         energies = self._energies(vectors)
-        frequencies = np.sqrt(squares[order]) / (2 * np.pi)
+        with np.errstate(invalid="ignore"):  # NaN where round-off made a square negative
+            frequencies = np.sqrt(squares[order]) / (2 * np.pi)
         return BeamModes(frequencies, _names(energies), _signed(vectors), energies)
 
     def _energies(self, vectors: np.ndarray) -> dict[str, np.ndarray]:

@@ -337,7 +337,8 @@ class BeamProperties:
     def _placed_bearings(self) -> tuple[Bearing, ...]:
         """Return the given or usual bearings, one under each span where simple spans meet."""
         placed: dict[tuple, Bearing] = {}
-        for i, given in enumerate(self.bearings or self._usual_bearings(), start=1):
+        own = errors.instances("bearings", self.bearings, Bearing)
+        for i, given in enumerate(own or self._usual_bearings(), start=1):
             with within(f"bearings[{i}]"):
                 bearing = replace(given, x=on_deck(given.x, self._span_ends))
                 self._refuse_missing_stiffness(bearing)

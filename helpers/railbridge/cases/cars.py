@@ -50,7 +50,7 @@ def two_bogie_car(name: str, **parameters: float) -> Vehicle:
     The paper gives no height above the rail. The primary springs are placed at rail level, so that
     the lateral wheel force acts there (no couple F_y times height on the deck).
     """
-    with within(source=f"vehicle {name}"):
+    with within(source=f"vehicle {errors.text('name', name)}"):
         needed = [key for key in CAR_PARAMETERS if key not in OPTIONAL_PARAMETERS]
         errors.keys("", parameters, CAR_PARAMETERS, needed)
         p = {key: CAR_PARAMETERS[key].checked(key, value) for key, value in parameters.items()}
@@ -104,6 +104,7 @@ def planar_car(car: Vehicle) -> Vehicle:
 
     Left and right springs are put together; those that are lateral only are left out.
     """
+    errors.instance("car", car, Vehicle)
     bodies = tuple(
         replace(b, freedoms=tuple(f for f in b.freedoms if f in ("z", "pitch"))) for b in car.bodies
     )

@@ -168,7 +168,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="KEY=VALUE",
         action="append",
         default=[],
-        help="change a key, as in run.speed=30; may be repeated",
+        help="change a key, as in run.speed=30; may be repeated; paths as in the file",
     )
     changes.add_argument(
         "--strict",

@@ -116,7 +116,7 @@ class Case:
     def get(self, path: str) -> Any:
         """Return the value at a path, None if it is not given."""
         place: Any = self.content
-        for part in path.split("."):
+        for part in errors.text("path", path).split("."):
             place = place.get(part) if isinstance(place, dict) else None
         return copy.deepcopy(place)
 
@@ -170,7 +170,7 @@ class Case:
 
         Of a run of this case, if there is one already.
         """
-        run = run or self.compute()
+        run = self.compute() if run is None else errors.instance("run", run, Crossing)
         return summarize(run, self.points, self.remarks(run))
 
     def code(self) -> str:
@@ -184,11 +184,19 @@ class Case:
         )
 
 
+_DEEPEST = 20
+
+
 def changed(content: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return tables with some keys changed, by path; None takes a key away."""
+    if not isinstance(changes, Mapping):
+        allowed = "must be a table of new values by path"
+        raise InputError("changes", changes, allowed, "For instance {'run.speed': 30.0}")
     result = copy.deepcopy(dict(content))
     for path, value in changes.items():
         *parents, last = errors.text("path of a change", path).split(".")
+        if len(parents) > _DEEPEST:
+            raise InputError(path, None, f"leads more than {_DEEPEST} tables deep")
         place = result
         for parent in parents:
             place = place.setdefault(parent, {})
@@ -217,9 +225,10 @@ def case(source: str | Path | Mapping[str, Any], changes: Mapping[str, Any] | No
         Unknown name or bad content.
     """
     if isinstance(source, Mapping):
-        return Case(changed(source, changes or {}))
+        return Case(changed(source, {} if changes is None else changes))
     path = shelf.data_file("cases", source, ".toml")
-    content, changes = shelf.read_toml(path, tables.CASE.model_fields), changes or {}
+    content = shelf.read_toml(path, tables.CASE.model_fields)
+    changes = {} if changes is None else changes
     if shelf.is_path(source):
         return Case(_beside(changed(content, changes), path.parent))
     # Nobody knows in which folder a shipped case stands: changes are relative to one's own.

@@ -183,7 +183,7 @@ def box(source: str | Path) -> Box:
 
 def box_from_table(name: str, content: dict[str, Any]) -> Box:
     """Build a box from the content of a deck file with the table ``[box]``."""
-    with within(source=f"deck {name}"):
+    with within(source=f"deck {errors.text('name', name)}"):
         return _box(name, checked(tables.DECK_FILE, content))
 
 
@@ -197,7 +197,7 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
     InputError
         Missing, unknown, contradictory or wrong keys, or a mechanism.
     """
-    with within(source=f"deck {name}"):
+    with within(source=f"deck {errors.text('name', name)}"):
         return _deck_from_table(name, content)
 
 

@@ -283,7 +283,13 @@ BEARING = table(
         Bearing,
         fixed=_words(FIXITIES),
         stiffness=named_numbers(FIXITIES, above=0.0, most=STIFFEST_BEARING),
-    ),
+    )
+    | {
+        "fixed": key(
+            _words(FIXITIES),
+            "What it holds rigidly: some of x y z roll pitch yaw. Needed without stiffness.",
+        )
+    },
 )
 PADS = table(
     "Pads",

@@ -281,7 +281,7 @@ def export_modes(deck: Deck, folder: str | Path, units: Sequence[str] = ("m", "k
     InputError
         Unknown units.
     """
-    folder = Path(folder)
+    errors.instance("deck", deck, Deck)
     length, mass = model_units(units)
     x, columns = _at_thirds(deck, per_metre(length), math.sqrt(factor_of("units[2]", mass, "mass")))
     head = f"# units: {length}, {mass}\n"
@@ -298,9 +298,13 @@ def export_modes(deck: Deck, folder: str | Path, units: Sequence[str] = ("m", "k
         "modes.csv": [head, header, *rows],
         "deck.toml": _deck_file(deck),
     }
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, text in files.items():
-        (folder / name).write_text("".join(text), encoding="utf-8", newline="\n")
+    try:
+        folder = Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in files.items():
+            (folder / name).write_text("".join(text), encoding="utf-8", newline="\n")
+    except (TypeError, ValueError) as error:
+        raise InputError("folder", folder, f"is not the path of a folder ({error})") from None
     return folder / "deck.toml"
 
 

@@ -192,6 +192,7 @@ def deck_from_modes(
     everything = kept
     if count is not None:
         kept = kept[: errors.integer("count", count, least=1, most=len(kept))]
+    supports = _checked_supports(supports, line.length)
     frequencies = model.frequencies_hz[kept]
     remarks = _cut(model.frequencies_hz[everything], len(kept))
     remarks += _still(functions, kept, supports)
@@ -217,7 +218,7 @@ def deck_from_modes(
         damping_ratios=ratios,
         mode_names=_names(model, size, kept),
         shapes=rail,
-        supports=tuple(float(x) for x in supports),
+        supports=supports,
         tracks=dict(tracks or {}),
         width=width,
         track_height=track_height,
@@ -258,6 +259,15 @@ def _still(functions: PiecewiseCubic, kept: np.ndarray, supports: Sequence[float
         + ": too few modes were written."
     )
     return [ResultWarning("modes", text)]
+
+
+def _checked_supports(supports: Sequence[float], length: float) -> tuple[float, ...]:
+    """Return the places of bearing lines, m, ascending; refuse two at one place."""
+    found = np.sort(errors.places("supports", supports, (0.0, length), slack=errors.ROUNDED))
+    if np.any(np.diff(found) < 1e-3 * length):
+        allowed = "two bearing lines stand at one place"
+        raise InputError("supports", found, allowed, "Give each line once, m from the first node")
+    return tuple(found.tolist())
 
 
 def _along(

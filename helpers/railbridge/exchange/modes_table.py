@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
-from .. import errors
 from ..decks import Deck
 from ..errors import Range, brief, check_fields, within
 from .files import read_modes
@@ -113,16 +112,13 @@ class ModesTable:
         """
         model = read_modes(self.nodes, self.modes, self.masses, self.units, self.axes)
         line = model.nodes.line(self.rail, self.axis)
-        supports = errors.places(
-            "supports", self.supports, (0.0, line.length), slack=errors.ROUNDED
-        )
         with within(names=_IN_THE_TABLE):
             return deck_from_modes(
                 model,
                 line,
                 damping=damping,
                 count=self.count,
-                supports=supports,
+                supports=self.supports,
                 unusual=self.unusual,
                 **own,
             )

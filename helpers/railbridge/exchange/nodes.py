@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar, get_args
@@ -36,8 +36,7 @@ def model_units(units: Sequence[str | float]) -> tuple[str, str]:
     InputError
         Naming ``units``: not one or two, or unknown.
     """
-    several = isinstance(units, Iterable) and not isinstance(units, (str, bytes, Mapping))
-    named = tuple(units) if several else ()
+    named = tuple(units) if errors.is_list(units) else ()
     if len(named) not in (1, 2):
         remedy = "For instance units = ['m', 'kg'], or '# units: m, kg' in the file"
         raise InputError("units", units, "must name a length and a mass", remedy)
@@ -84,9 +83,9 @@ def model_axes(axes: Sequence[ModelAxis]) -> np.ndarray:
         Naming ``axes``: not three axes of a right-handed set.
     """
     allowed = "must name the model's axes that point forward, left and up"
-    several = isinstance(axes, Iterable) and not isinstance(axes, (str, Mapping))
-    named = tuple(axes) if several else ()
-    if len(named) != 3 or not all(a in get_args(ModelAxis) for a in named):
+    named = tuple(axes) if errors.is_list(axes) else ()
+    known = get_args(ModelAxis)
+    if len(named) != 3 or not all(isinstance(a, str) and a in known for a in named):
         remedy = "A model with y up and x forward has axes = ['x', '-z', 'y']"
         raise InputError("axes", axes, allowed, remedy)
     turn = np.zeros((3, 3))
@@ -162,7 +161,7 @@ class NodeChoice:
             if f.name != "nodes" and getattr(self, f.name) != f.default:
                 remedy = "Choose nodes by place or one by one"
                 raise InputError(f.name, getattr(self, f.name), "cannot stand beside nodes", remedy)
-        if isinstance(self.nodes, (str, bytes, Mapping)) or not isinstance(self.nodes, Iterable):
+        if not errors.is_list(self.nodes):
             raise InputError("nodes", self.nodes, "must be a list of nodes")
         labels = tuple(labelled(n) for n in self.nodes)
         for label in labels:

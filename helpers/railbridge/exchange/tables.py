@@ -63,7 +63,7 @@ class Columns:
             values = np.array(cells, dtype=float)
         except ValueError:
             values = np.array([math.nan])
-        if self.comma or not np.isfinite(values).all():
+        if self.comma or not np.all(np.abs(values) <= 1e30):
             named = zip(self.lines, cells, strict=True)
             values = np.array([self.number(f"line {line}: {column}", c) for line, c in named])
         return values

@@ -10,7 +10,7 @@ import numpy as np
 from .. import plots
 from ..cases.definition import Case
 from ..cases.definition import case as load_case
-from ..decks import rayleigh, rayleigh_ratio
+from ..decks import rayleigh
 from ..errors import Remark
 from ..plots.forces import car_components, mark_instant
 from ..plots.scene import crossing_at
@@ -235,7 +235,8 @@ def deck_modes(case: Case | None = None) -> Panel:
 
     def draw(axes, case, coefficients, values):
         mode, forcing = values["mode"], {"forcing": _forcing(values)}
-        marks = {**forcing, "the mode": case.deck.frequencies_hz[mode - 1]}
+        # Only modes have a ratio: the forcing is no mark of this curve.
+        marks = {"the mode": case.deck.frequencies_hz[mode - 1]}
         plots.deck_mode(case.deck, mode, axes["mode"])
         plots.frequencies(case.deck, forcing, axes["frequencies"], most=60.0)
         plots.damping(*coefficients, marks, axes["damping"])
@@ -243,11 +244,10 @@ def deck_modes(case: Case | None = None) -> Panel:
     def say(case, coefficients, values):
         i, deck, forcing = values["mode"] - 1, case.deck, _forcing(values)
         frequency, ratio = deck.frequencies_hz[i], 100 * deck.damping_ratios[i]
-        ratio_there = 100 * float(rayleigh_ratio(*coefficients, forcing))
         return (
             f"{_conditions_in_words(values)}mode {i + 1}, {deck.mode_names[i]}, "
             f"{frequency:.3f} Hz, damping {ratio:.2f} %; "
-            f"forcing {forcing:.3f} Hz, where damping would be {ratio_there:.2f} %."
+            f"forcing {forcing:.3f} Hz."
         )
 
     anchor, damping = "deck.damping.frequencies_hz", ("deck.damping.ratio",)

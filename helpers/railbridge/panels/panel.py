@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 
 from .. import errors
 from ..cases.definition import Case
-from ..errors import InputError, Remark
+from ..errors import InputError, InputWarning, Remark, ResultWarning
 from ..plots.drawing import FIGURE_WIDTH, keep_limits, reuse_artists
 from ..plots.picture import Picture
 from ..results import Crossing
@@ -67,8 +67,9 @@ class Panel:
         ``compute(case, progress)`` returns the result of a case; pure, kept for the controls' last
         values. It calls `progress` now and then, which raises where the result is no longer wanted.
     remarks : callable
-        ``remarks(case, result)`` returns what must be known before the picture is read; shown with
-        the exact picture. By default those on a crossing, or on the input if the result is none.
+        ``remarks(case, result)`` returns what must be known before the picture is read; what is
+        warned of is shown with the exact picture. By default those on a crossing, or on the input
+        where the result is something else.
     code : str
         Last line of *Show this as code*, formatted with the values: the number that the summary
         gives.
@@ -426,8 +427,9 @@ def _usual_remarks(case: Case, result: Any) -> Sequence[Remark]:
 
 
 def _as_html(remarks: Sequence[Remark]) -> str:
-    """Return remarks as a box of a line each, the first few; nothing where there are none."""
-    lines = [escape(str(remark)) for remark in remarks]
+    """Return what is warned of as a box of a line each, the first few; nothing if there is none."""
+    warned = (r for r in remarks if isinstance(r, (InputWarning, ResultWarning)))
+    lines = [escape(str(remark)) for remark in warned]
     if not lines:
         return ""
     more = len(lines) - REMARKS_SHOWN

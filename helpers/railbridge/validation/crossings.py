@@ -127,7 +127,7 @@ class ConvergenceRow:
 
 @lru_cache
 def convergence_with_modes(
-    counts: tuple[int, ...] = (1, 3, 5, 9, 17, 33), ratio: float = 0.0
+    counts: tuple[int, ...] = (1, 3, 5, 9, 17, 33), ratio: tuple[float, float] | float = 0.0
 ) -> tuple[ConvergenceRow, ...]:
     """Return what a force crossing at half the critical speed gives with more and more modes.
 
@@ -140,8 +140,8 @@ def convergence_with_modes(
     ----------
     counts : tuple of int
         Numbers of modes.
-    ratio : float
-        Damping ratio of every mode.
+    ratio : (alpha, beta) or float
+        Rayleigh's coefficients, or the damping ratio of every mode.
     """
     beam, rows = force_beam(), []
     speed, middle = 0.5 * beam.critical_speed, beam.length / 2

@@ -94,10 +94,10 @@ def bounce_amplitude(wavelength: float, excitation: str = "wheels") -> float:
 _PITCH = "probably one wrong digit in print; nothing is tuned to it"
 _RECORD = "depends on the record and on where the waves lie on the deck"
 _MASS = "the deck's mass is identified, within about 10 %"
-_PHASE = "near it only with all wheels of a car in phase"
+_PHASE = "size and sign near it only with wheels in phase"
 _SHELL = "not in a plain beam: axial-bending or local modes of the shell"
 _TABLE4 = {
-    "Torsion moment": "unknown: no reading explains it",
+    "Torsion moment": "unknown; a quarter of the span comes near it",
     "Horizontal bending moment": "E I_z is identified; the sign convention is not stated",
     "Vertical bending moment": _MASS,
     "Vertical displacement": "three quarters are self-weight sag, the same for any mass",
