@@ -539,7 +539,7 @@ def test_the_headline_names_the_point_that_moves_most(here, capsys):
     worst = min(points, key=lambda p: p["displacement_z"]["min"]["value"])
     value = worst["displacement_z"]["min"]["value"] * 1e3
     assert code == 0 and worst["x"] == 6.0
-    assert f"largest displacement, at x = 6 m is {value:.4g} mm" in err[-1]
+    assert f"displacement is largest at x = 6 m, {value:.4g} mm" in err[-1]
 
 
 def test_the_headline_of_a_point_at_the_support_says_so(here, capsys):

@@ -293,8 +293,9 @@ def _headline(loaded: Case, run: Crossing) -> str:
         if not run.converged:
             solved = f"{passes}, last change {run.changes[-1]:.2g}"
     x, value = _worst(loaded, run)
-    where = "largest displacement, " if len(loaded.points) > 1 else "displacement "
-    return f"{solved}, {where}at x = {x:g} m is {value * 1e3:.4g} mm"
+    if len(loaded.points) > 1:
+        return f"{solved}, displacement is largest at x = {x:g} m, {value * 1e3:.4g} mm"
+    return f"{solved}, displacement at x = {x:g} m is {value * 1e3:.4g} mm"
 
 
 def _worst(loaded: Case, run: Crossing) -> tuple[float, float]:
