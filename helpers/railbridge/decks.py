@@ -31,13 +31,13 @@ from typing import Protocol
 import numpy as np
 
 from . import errors
-from .errors import InputError, Range, Remark, frozen
+from .errors import InputError, Range, Remark, ResultWarning, frozen
 from .guideways import Guideway, PiecewiseCubic
 from .response import SampledModes, lagged, sampled_modes
 
 __all__ = [
     "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
-    "ModesOnly", "RATIO", "Recovery", "checked_damping", "damping_ratios", "rayleigh",
+    "ModesOnly", "RATIO", "Recovery", "checked_damping", "cut_group", "damping_ratios", "rayleigh",
     "rayleigh_ratio", "whole_group",
 ]  # fmt: skip
 
@@ -109,6 +109,27 @@ def whole_group(frequencies_hz: np.ndarray, count: int) -> int:
             break
         count += 1
     return count
+
+
+def cut_group(field: str, frequencies_hz: np.ndarray, count: int) -> list[Remark]:
+    """Say where so many modes end in the middle of a group of equal frequencies; see `whole_group`.
+
+    Parameters
+    ----------
+    field : str
+        What the caller calls the number of modes.
+    frequencies_hz : ndarray, shape (m,)
+        Ascending, with those beyond the last mode kept.
+    count : int
+    """
+    whole = whole_group(frequencies_hz, count)
+    if whole == count:
+        return []
+    text = (
+        f"= {count} cuts a group of equal frequencies, {frequencies_hz[count]:.6g} Hz: only "
+        f"together do they move the whole deck. Take {whole}."
+    )
+    return [ResultWarning(field, text)]
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,11 +8,11 @@ from functools import cached_property
 import numpy as np
 
 from .. import errors
-from ..decks import Deck, checked_damping, damping_ratios
+from ..decks import Deck, checked_damping, cut_group, damping_ratios
 from ..errors import InputError, Remark
 from .influence import BeamRecovery
 from .mesh import DENSE, BeamModes, Mesh
-from .properties import BeamProperties
+from .properties import BeamProperties, span_ends
 from .selection import left_out, needed
 
 __all__ = ["Beam"]
@@ -89,10 +89,7 @@ class Beam(BeamProperties):  # noqa: D101
             track_height=track_height,
             mass_per_metre=self.mass,
             internal_damping=0.0 if np.isscalar(damping) else float(damping[1]),
-            remarks=(
-                *self.remarks,
-                *([] if modes is None else self._left_out(recovery, frequencies)),
-            ),
+            remarks=(*self.remarks, *self._left_out(modes, natural, recovery)),
         )
 
     def _chosen(self) -> tuple[BeamModes, list[int]]:
@@ -123,6 +120,12 @@ class Beam(BeamProperties):  # noqa: D101
             raise InputError("modes", modes, allowed, f"{first}, or leave modes out")
         return natural, excitable[:wanted]
 
-    def _left_out(self, recovery: BeamRecovery, frequencies: np.ndarray) -> list[Remark]:
-        edges = np.concatenate([[0.0], np.cumsum(self.spans)])
-        return left_out(recovery, frequencies, (edges[1:] + edges[:-1]) / 2)
+    def _left_out(
+        self, modes: int | None, natural: BeamModes, recovery: BeamRecovery
+    ) -> list[Remark]:
+        """Return what a given number of modes costs; a chosen one costs nothing worth a remark."""
+        if modes is None:
+            return []
+        known, edges = natural.frequencies_hz[natural.excitable], span_ends(self.spans)
+        found = cut_group("modes", known, modes)
+        return found + left_out(recovery, known[:modes], (edges[1:] + edges[:-1]) / 2)

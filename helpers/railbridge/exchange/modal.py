@@ -30,7 +30,7 @@ from scipy.interpolate import CubicSpline
 
 from .. import errors
 from ..bounds import BOUNDS, frequency_off, usual_frequencies
-from ..decks import Deck, rayleigh_ratio, whole_group
+from ..decks import Deck, cut_group, rayleigh_ratio
 from ..errors import InputError, Remark, ResultWarning, brief
 from ..guideways import PiecewiseCubic
 from ..plausibility import UNUSUAL, first_vertical, longest_span, scale_in_doubt
@@ -194,7 +194,7 @@ def deck_from_modes(
         kept = kept[: errors.integer("count", count, least=1, most=len(kept))]
     supports = _checked_supports(supports, line.length)
     frequencies = model.frequencies_hz[kept]
-    remarks = _cut(model.frequencies_hz[everything], len(kept))
+    remarks = cut_group("modes.count", model.frequencies_hz[everything], len(kept))
     remarks += _still(functions, kept, supports)
     rail = PiecewiseCubic(functions.edges, functions.coefficients[:, :, kept])
     if not unusual:
@@ -226,18 +226,6 @@ def deck_from_modes(
     )
     accepted = unusual and scale_in_doubt(made)
     return replace(made, remarks=(*made.remarks, Remark(*UNUSUAL))) if accepted else made
-
-
-def _cut(frequencies: np.ndarray, count: int) -> list[Remark]:
-    """Say where so many of the modes end in the middle of a group of equal frequencies."""
-    whole = whole_group(frequencies, count)
-    if whole == count:
-        return []
-    text = (
-        f"= {count} cuts a group of equal frequencies, {frequencies[count]:.6g} Hz: only together "
-        f"do they move the whole deck. Take {whole}."
-    )
-    return [ResultWarning("modes.count", text)]
 
 
 def _still(functions: PiecewiseCubic, kept: np.ndarray, supports: Sequence[float]) -> list[Remark]:
