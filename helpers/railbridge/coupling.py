@@ -236,8 +236,8 @@ class Coupling:
     def body_accelerations(self, state: DeckState) -> list[np.ndarray]:
         """Return what the deck's motion adds to every car body's accelerations, m/s2.
 
-        Each shape (3, 2, samples), places as for `Vehicle.sampled_body`. Each car runs on over the
-        level track behind the deck. None of bare axle loads.
+        Each shape (places, 2, samples), places as for `Vehicle.sampled_body`. Each car runs on over
+        the level track behind the deck. None of bare axle loads.
         """
         result = []
         for c in self.cars:
@@ -246,7 +246,7 @@ class Coupling:
             met = self.support_input(state, [c])[:, :, 0]
             u = np.zeros((*met.shape[:2], len(self.time) - c.window.start))
             u[..., : met.shape[2]] = met
-            added = np.zeros((3, 2, len(self.time)))
+            added = np.zeros((len(c.car.vehicle.body_places), 2, len(self.time)))
             respond = c.car.vehicle.sampled_body(self.settings.time_step)
             added[..., c.window.start :] = respond(u)
             result.append(added)

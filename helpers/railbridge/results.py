@@ -251,10 +251,11 @@ class Crossing:
 
     @cached_property
     def body_accelerations(self) -> np.ndarray:
-        """Accelerations of every car body, m/s2, shape (cars, 3, 2, n).
+        """Accelerations of every car body, m/s2, shape (cars, places, 2, n).
 
-        Front, middle, rear; lateral, vertical; see `Vehicle.sampled_body`. Over the whole record.
-        No cars for bare axle loads.
+        At each of `Vehicle.body_places`: front, middle, rear, of an articulated train those of
+        every coach; lateral, vertical. NaN where another car of the train has more coaches. Over
+        the whole record. No cars for bare axle loads.
         """
         if not self.train.kinds():
             return frozen(np.zeros((0, 3, 2, len(self.time))))
@@ -262,7 +263,11 @@ class Crossing:
         if self.iteration > 0:
             added = self.coupling.body_accelerations(self._felt)
             rigid = [r + a for r, a in zip(rigid, added, strict=True)]
-        return frozen(np.array(rigid))
+        most = max(len(own) for own in rigid)
+        result = np.full((len(rigid), most, 2, len(self.time)), np.nan)
+        for car, own in zip(result, rigid, strict=True):
+            car[: len(own)] = own
+        return frozen(result)
 
     def car_forces(self, car: int = 1, at: str = "track", static: bool = True) -> History:
         """Return one car's wheel forces condensed to five components (Figures 9 to 11).

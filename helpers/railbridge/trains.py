@@ -269,12 +269,12 @@ class AnyTrain:
 
         Returns
         -------
-        list of ndarray, one for each car, shape (3, 2, samples)
+        list of ndarray, one for each car, shape (places, 2, samples)
             Places as for `Vehicle.sampled_body`.
         """
 
         def zeros(car: Car) -> np.ndarray:
-            return np.zeros((3, 2, passage.samples))
+            return np.zeros((len(car.vehicle.body_places), 2, passage.samples))
 
         return self._on_rigid_deck(Vehicle.sampled_body, zeros, track, passage)
 

@@ -402,28 +402,52 @@ class Vehicle:
         return max(self.bodies, key=lambda b: b.mass)
 
     @property
-    def body_places(self) -> dict[str, float]:
-        """Where the car body's motion is taken, m ahead of mid-length.
+    def car_bodies(self) -> tuple[Body, ...]:
+        """The car body, or every coach of an articulated train, front to back.
 
-        Above its foremost and rearmost springs, and at its centre of mass.
+        Bodies no fewer springs above the rail than the heaviest one, with a fifth of its mass at
+        least: neither bogies nor what hangs in them.
         """
-        on = [s.at[0] for s in self.springs if self.body.name in (s.from_, s.to)]
-        return {"front": max(on), "middle": self.body.position[0], "rear": min(on)}
+        levels, count = {"rail": 0}, 0
+        while len(levels) > count:
+            count = len(levels)
+            for spring in self.springs:
+                for low, high in ((spring.from_, spring.to), (spring.to, spring.from_)):
+                    if levels.get(low, count) + 1 < levels.get(high, count + 1):
+                        levels[high] = levels[low] + 1
+        least = levels[self.body.name]
+        own = [b for b in self.bodies if levels[b.name] >= least and b.mass >= self.body.mass / 5]
+        return tuple(sorted(own, key=lambda b: -b.position[0]))
+
+    @property
+    def body_places(self) -> tuple[tuple[Body, str, float], ...]:
+        """Where the motion of `car_bodies` is taken: the body, a name, m ahead of mid-length.
+
+        ``front`` and ``rear`` above its foremost and rearmost springs, ``middle`` at its centre of
+        mass.
+        """
+        found = []
+        for body in self.car_bodies:
+            on = [s.at[0] for s in self.springs if body.name in (s.from_, s.to)]
+            places = {"front": max(on), "middle": body.position[0], "rear": min(on)}
+            found += [(body, name, x) for name, x in places.items()]
+        return tuple(found)
 
     def sampled_body(self, time_step: float) -> WheelResponse:
-        """Return what gives the car body's accelerations, m/s2, from ``k r + c r'``.
+        """Return what gives the car bodies' accelerations, m/s2, from ``k r + c r'``.
 
-        At the height of the body's centre of mass, at each of `body_places`, lateral and vertical:
-        shape (3, 2, n) from shape (wheels, 2, n).
+        At the height of the bodies' centres of mass, at each of `body_places`, lateral and
+        vertical: shape (places, 2, n) from shape (wheels, 2, n).
 
         Parameters
         ----------
         time_step : float
             s.
         """
-        height = self.body.position[2]
-        points = [(x, 0.0, height) for x in self.body_places.values()]
-        moving = np.vstack([self._point_rows(self.body.name, point) for point in points])
+        places = self.body_places
+        moving = np.vstack(
+            [self._point_rows(b.name, (x, 0.0, b.position[2])) for b, _, x in places]
+        )
         accelerations = np.linalg.solve(self.mass_matrix, moving.T).T
         state = -accelerations @ np.hstack([self.stiffness_matrix, self.damping_matrix])
         respond = replace(self.system, c=state).sampled(time_step)
@@ -432,7 +456,7 @@ class Vehicle:
 
         def body_accelerations(u: np.ndarray) -> np.ndarray:
             inputs = u.reshape(-1, u.shape[-1])
-            return (respond(inputs) + direct @ inputs).reshape(3, 2, -1)
+            return (respond(inputs) + direct @ inputs).reshape(len(places), 2, -1)
 
         return body_accelerations
 

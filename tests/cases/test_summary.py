@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -225,6 +226,36 @@ def test_the_middle_of_a_car_body_moves_as_the_mean_of_its_ends(run):
     front, middle, rear = run.body_accelerations[0]
     assert np.allclose(middle, (front + rear) / 2, atol=1e-9)
     assert np.abs(middle[1]).max() > 0.5
+
+
+def test_every_coach_of_an_articulated_train_is_told():
+    """Newton for all of them: masses times accelerations are what the wheels exert."""
+    coaches = [rb.Body(f"c{i}", 2e4 - 5e3 * i, (0, 1, 0), (8.0 - 8.0 * i, 0, 1), ("z", "pitch"))
+               for i in range(3)]  # fmt: skip
+    coaches = tuple(replace(c, inertia=(0.0, 2e5, 0.0)) for c in coaches)
+    springs = [
+        rb.Spring(c.name, "rail", (c.position[0] + x, 0.0, 0.0), (0.0, 1e6), (0.0, 2e4))
+        for c in coaches
+        for x in (3.0, -3.0)
+    ]
+    springs.append(rb.Spring("c0", "c1", (4.0, 0.0, 1.0), (0.0, 1e6), (0.0, 1e4)))
+    long = rb.Vehicle("long", coaches, tuple(springs), 24.0)
+    train = rb.Train((long, rb.vehicle("sprung_mass")))
+    track = rb.Track(vertical=rb.Harmonic(1e-3, wavelength=10.0))
+    options = {"speed": 30.0, "time_step": 2e-3, "tolerance": 1e-6, "lead_in": 0.0}
+    run = rb.cross(train, rb.deck("viaduct36"), track, **options)
+    found = run.body_accelerations
+    assert found.shape[:3] == (2, 9, 2) and np.isnan(found[1, 3:]).all()
+    assert np.isfinite(found[0]).all()
+    inertia = sum(c.mass * found[0, 3 * i + 1, 1] for i, c in enumerate(coaches))
+    exerted = -(run.wheel_forces[:6, 1].sum(axis=0) + sum(c.mass for c in coaches) * 9.81)
+    assert np.allclose(inertia, exerted, atol=1e-6 * np.abs(exerted).max())
+    told = summarize(run, [18.0])["car_body"]["acceleration_z"]
+    worst = np.unravel_index(np.nanargmax(found[:, :, 1]), (2, 9, len(run.time)))
+    assert told["max"]["value"] == np.nanmax(found[:, :, 1])
+    assert told["max"]["car"] == worst[0] + 1
+    assert told["max"]["place"] == ("front", "middle", "rear")[worst[1] % 3]
+    assert told["max"].get("body") == (f"c{worst[1] // 3}" if worst[0] == 0 else None)
 
 
 def test_histories_start_with_t_and_name_their_units(run):
