@@ -103,6 +103,8 @@ def test_the_end_of_a_deck_is_its_end_however_it_is_rounded(spans):
         )
         assert run.envelope("moment_vertical", [0.0, end]).x[-1] == deck.length
     for x in (deck.length * (1 + 1e-6), -1e-6):
+        with pytest.raises(rb.InputError, match="^x = "):
+            deck.recovery.section("moment_vertical", x)
         for ask in (run.displacement, run.velocity, run.acceleration, run.section_forces):
             with pytest.raises(rb.InputError, match="^x = "):
                 ask(x)
@@ -113,6 +115,7 @@ def test_what_one_works_with_is_shown_in_three_lines():
     beam = rb.Beam("b", (10.0,) * 25, 1e4, 1e9)
     track = rb.Track(rb.Table(np.arange(1000.0), np.zeros(1000)))
     shown = [
+        RUN, RUN.deck, RUN.envelope("displacement_z"), RUN.deviations, RUN.displacement(18.0), beam,
         car, car.modes(), car.system, RUN.train, rb.AxleTrain(np.arange(90.0), [1e5] * 90), track,
         track.rail("vertical", "left"), RUN.settings, RUN.spectrum, beam.mesh.modes(3),
         rb.case("paper"), rb.case("paper").train.car(1), RUN.deck.shapes,

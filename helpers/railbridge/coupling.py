@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .decks import Deck
-from .errors import frozen
+from .errors import brief, frozen
 from .guideways import Guideway, Stations
 from .response import SampledModes
 from .settings import Settings
@@ -41,6 +41,8 @@ One array for each car, shape (wheels, 2, n).
 @dataclass(frozen=True, eq=False)
 class DeckState:
     """The deck's modal coordinates, velocities and forces, each shape (modes, samples)."""
+
+    __repr__ = brief
 
     q: np.ndarray
     velocity: np.ndarray
@@ -108,6 +110,8 @@ class Coupling:
     modes : SampledModes or None
         The deck's.
     """
+
+    __repr__ = brief
 
     train: AnyTrain
     deck: Guideway

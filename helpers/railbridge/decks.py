@@ -31,7 +31,7 @@ from typing import Protocol
 import numpy as np
 
 from . import errors
-from .errors import InputError, Range, Remark, ResultWarning, frozen
+from .errors import InputError, Range, Remark, ResultWarning, brief, frozen
 from .guideways import Guideway, PiecewiseCubic
 from .response import SampledModes, lagged, sampled_modes
 
@@ -75,7 +75,10 @@ def rayleigh(ratio: float, frequencies_hz: Sequence[float]) -> tuple[float, floa
 
 def rayleigh_ratio(alpha: float, beta: float, frequencies_hz: np.ndarray) -> np.ndarray:
     """Return the damping ratio at each frequency (Hz)."""
-    omega = 2 * np.pi * np.asarray(frequencies_hz, dtype=float)
+    alpha = errors.number("alpha", alpha, least=0.0, unit="1/s")
+    beta = errors.number("beta", beta, least=0.0, unit="s")
+    checked = errors.number if np.ndim(frequencies_hz) == 0 else errors.numbers
+    omega = 2 * np.pi * checked("frequencies_hz", frequencies_hz, above=0.0, unit="Hz")
     return alpha / (2 * omega) + beta * omega / 2
 
 
@@ -146,6 +149,8 @@ class Line:
         The output under the deck's own weight.
     """
 
+    __repr__ = brief
+
     modal: np.ndarray
     influence: PiecewiseCubic
     self_weight: float
@@ -185,6 +190,8 @@ class ModesOnly:
     shapes : PiecewiseCubic
     frequencies_hz : ndarray, shape (m,)
     """
+
+    __repr__ = brief
 
     shapes: PiecewiseCubic
     frequencies_hz: np.ndarray
@@ -229,6 +236,8 @@ class History:
     jumps : callable or None
         From a name to times (s) and values between the samples, on both sides of what jumps.
     """
+
+    __repr__ = brief
 
     time: np.ndarray
     values: dict[str, np.ndarray]
@@ -297,6 +306,8 @@ class Deck(Guideway):
     remarks : tuple of Remark
         What whoever made the deck doubts about it, or what it leaves out.
     """
+
+    __repr__ = brief
 
     frequencies_hz: np.ndarray
     damping_ratios: np.ndarray

@@ -21,7 +21,7 @@ from .decks import (
     History,
     Line,
 )
-from .errors import InputError, frozen
+from .errors import InputError, brief, frozen
 from .settings import STATIONS, Settings
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .statics import MovingLoads, static_extremes
@@ -47,6 +47,8 @@ class Deviations:
     ----------
     from_rigid, from_previous : ndarray, shape (iterations,)
     """
+
+    __repr__ = brief
 
     from_rigid: np.ndarray
     from_previous: np.ndarray
@@ -78,6 +80,8 @@ class Envelope:
         For each place times (s) and values between the samples, on both sides of what jumps;
         empty where nothing does.
     """
+
+    __repr__ = brief
 
     x: np.ndarray
     time: np.ndarray
@@ -118,6 +122,8 @@ class Crossing:
     states : dict of DeckState
         The deck's state by iteration, as far as it is known; shared by what `at` returns.
     """
+
+    __repr__ = brief
 
     train: AnyTrain
     deck: Deck

@@ -6,6 +6,7 @@ import pytest
 import railbridge as rb
 from railbridge import exchange
 from railbridge.beams import Bearing
+from railbridge.cases.summary import summarize
 
 CAR = rb.vehicle("xia2000")
 CASE = rb.Case(
@@ -48,6 +49,11 @@ CALLS = {
     "replace a table": lambda v: CASE.replace({"deck": v}),
     "get": CASE.get,
     "summary": CASE.summary,
+    "summarize": lambda v: summarize(v, [10.0]),
+    "summarize points": lambda v: summarize(CASE.compute(), v),
+    "rayleigh_ratio alpha": lambda v: rb.rayleigh_ratio(v, 0.1, [1.0]),
+    "rayleigh_ratio f": lambda v: rb.rayleigh_ratio(0.1, 0.1, v),
+    "Beam.deck tracks": lambda v: rb.Beam("b", (10.0,), 1e4, 1e9).deck(2, tracks=v),
     "deck_from_table": lambda v: rb.deck_from_table("d", v),
     "vehicle": rb.vehicle,
     "deck": rb.deck,

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import errors
 from ..decks import Deck, checked_damping, cut_group, damping_ratios
-from ..errors import InputError, Remark
+from ..errors import InputError, Remark, brief
 from .influence import BeamRecovery
 from .mesh import DENSE, BeamModes, Mesh
 from .properties import BeamProperties, span_ends
@@ -22,6 +22,8 @@ __all__ = ["Beam"]
 class Beam(BeamProperties):  # noqa: D101
     # What its fields mean is written once, and read by whoever asks for help on a beam.
     __doc__ = BeamProperties.__doc__
+
+    __repr__ = brief
 
     @cached_property
     def mesh(self) -> Mesh:
@@ -72,6 +74,7 @@ class Beam(BeamProperties):  # noqa: D101
         """
         damping = checked_damping(damping)
         natural, kept = self._chosen() if modes is None else self._lowest(modes)
+        tracks = {} if tracks is None else errors.table("tracks", tracks)
         frequencies, vectors = natural.frequencies_hz[kept], natural.vectors[:, kept]
         recovery = BeamRecovery(self.mesh, frequencies, vectors)
         return Deck(
@@ -84,7 +87,7 @@ class Beam(BeamProperties):  # noqa: D101
             supports=tuple(sorted({b.x for b in self.bearings})),
             bearings=tuple((b.x, b.y, b.z) for b in self.bearings),
             recovery=recovery,
-            tracks=tracks or {},
+            tracks=tracks,
             width=width,
             track_height=track_height,
             mass_per_metre=self.mass,

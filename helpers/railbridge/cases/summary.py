@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import notices
+from .. import errors, notices
 from ..decks import History, Line
 from ..errors import Remark
 from ..results import ENVELOPE, Crossing
@@ -66,9 +66,9 @@ def summarize(
     Accelerations do not converge with the number of modes: the cut-off is the last of
     ``deck_frequencies_hz``.
     """
-    s, deck = run.settings, run.deck
+    s, deck = errors.instance("run", run, Crossing).settings, run.deck
     remarks = notices.remarks(run) if remarks is None else remarks
-    points = [float(x) for x in points]
+    points = errors.places("points", points, (0.0, deck.length)).tolist()
     kinds = run.train.kinds()
     iterated = s.interaction == "iterate"
     result = {
