@@ -11,7 +11,7 @@ BIN := .venv/bin
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help env lab app test test-browser reproduce identify notebooks site pages lint format bench latency lock clean
+.PHONY: help env lab app test test-browser test-oldest mutants reproduce identify notebooks site pages lint format bench latency lock clean
 
 help:  ## list these targets
 	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 22
@@ -30,6 +30,12 @@ test: env  ## run all tests: unit, property and notebook tests
 
 test-browser: env  ## open every panel notebook and the app in a real Chromium and use them
 	$(BIN)/python -m pytest tests/browser $(ARGS)
+
+test-oldest: env  ## run all tests with the oldest packages that pyproject.toml allows, in build/
+	$(BIN)/python tools/versions.py oldest $(ARGS)
+
+mutants: env  ## change one thing at a time in a module and see whether a test notices (ARGS=units)
+	$(BIN)/python tools/mutants.py $(ARGS)
 
 reproduce: env  ## run the paper's case: printed, ours, difference; writes build/reproduction.json
 	$(BIN)/python -m railbridge.paper $(ARGS)

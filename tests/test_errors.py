@@ -151,3 +151,73 @@ def test_a_dataclass_is_held_to_the_types_of_its_fields():
     ]:
         with pytest.raises(InputError, match=words):
             Example(**{"size": 1.0, **given})
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_place_that_misses_an_end_by_rounding_is_that_end(sign):
+    ends = (0.0, 12.1, 36.6)
+    for end in ends:
+        assert errors.place("x", end + sign * 1e-12, ends) == end
+        assert errors.place("x", end + sign * 3e-8, ends) == end  # 36.6e-9 are rounding
+        assert errors.place("x", end + sign * 3e-6, ends, slack=errors.ROUNDED) == end
+    inside = 12.1 + sign * 1e-6
+    assert errors.place("x", inside, ends) == inside
+    assert errors.places("x", [0.0, 36.6 + 1e-9], ends).tolist() == [0.0, 36.6]
+
+
+@pytest.mark.parametrize("value", [-1e-6, 36.60001, 40, "18", None, np.nan])
+def test_a_place_off_the_deck_is_refused_with_digits_enough_to_see_why(value):
+    with pytest.raises(InputError, match=r"^x( = |: ).*must be a finite number"):
+        errors.place("x", value, (0.0, 36.6))
+    with pytest.raises(InputError, match=r"^x\[2\]( = |: )"):
+        errors.places("x", [1.0, value], (0.0, 36.6))
+    with pytest.raises(InputError, match=r"at most 36\.599999 m"):
+        errors.place("x", 36.6, (0.0, 36.599999))
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("plain, \u00fc and \U0001f600", "plain, \u00fc and \U0001f600"),
+        ("\x1b[31mred\x07", "\\x1b[31mred\\x07"),
+        ("a\nb\t\x7f\x9b", "a\\nb\\t\\x7f\\x9b"),
+        ("right\u202eto left\u2066\u2028", "right\\u202eto left\\u2066\\u2028"),
+        ("half \udcff", "half \\udcff"),
+    ],
+)
+def test_control_characters_are_shown(text, shown):
+    assert errors.printable(text) == shown
+    assert shown in str(InputError("a", None, text)) and shown in str(errors.InputWarning("", text))
+    assert shown in str(InputError(text, 1, "no", source=text))
+
+
+def test_representations_fit_into_three_lines():
+    @dataclass(frozen=True, repr=False)
+    class Inner:
+        name: str
+
+        __repr__ = errors.brief
+
+    @dataclass(frozen=True)
+    class Outer:
+        __repr__ = errors.brief
+
+        a: object
+        b: object = 2.0
+
+    assert repr(Outer(np.zeros((3, 4)))) == "Outer(a=<array 3 x 4>, b=2.0)"
+    assert repr(Outer([1, 2], Inner("x"))) == "Outer(a=[1, 2], b=Inner('x'))"
+    assert repr(Outer(tuple(range(99)), {"k": 1})) == "Outer(a=<99 items>, b=[k: 1])"
+    assert repr(Outer("y" * 500)).startswith("Outer(a='yyyy") and len(repr(Outer("y" * 500))) < 100
+    assert repr(Outer(Outer(1))) == "Outer(a=Outer(...), b=2.0)"
+    long = Outer(*[[Inner("n" * 12)] * 3] * 2)
+    assert len(repr(long)) <= 240 and "\n" not in repr(long)
+
+
+@pytest.mark.parametrize(
+    ("key", "shown"), [("", '""'), ("box deck.depth", '"box deck.depth"'), ("a-b_2", "a-b_2")]
+)
+def test_keys_are_named_as_they_are_written(key, shown):
+    with pytest.raises(InputError) as error:
+        errors.keys("deck", {key: 1}, ["length"])
+    assert str(error.value).startswith(f"deck.{shown}: unknown key")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import railbridge as rb
@@ -33,7 +33,11 @@ def test_piecewise_cubic_derivatives(seed, at):
     seed=st.integers(0, 99),
 )
 def test_modal_forces_and_motions_of_stations_are_those_of_the_shapes(speed, delays, couples, seed):
-    """Against the shapes themselves, at the place of each load, one sample after the other."""
+    """Against the shapes themselves, at the place of each load, one sample after the other.
+
+    Not where a load stands on the end of an element: the twist's slope breaks there, and rounding
+    decides which of both slopes is taken.
+    """
     rng, step, samples = np.random.default_rng(seed), 5e-3, 400
     delays = np.array(delays)
     stations = DECK.stations(delays, speed, step, samples)
@@ -42,6 +46,8 @@ def test_modal_forces_and_motions_of_stations_are_those_of_the_shapes(speed, del
     q, velocity = rng.normal(size=(2, DECK.coordinates, samples))
     state = stations.ordered(q, velocity)
     k = int(rng.integers(0, samples))
+    places = speed * k * step - delays
+    assume(np.abs(places[:, None] - DECK.shapes.edges).min() > 1e-9)
     expected = np.zeros(DECK.coordinates)
     for group in stations.alike(np.arange(len(delays))):
         moved, rate = stations.motion(state, group)

@@ -262,6 +262,7 @@ def add_load(total, place, mesh, x, force, couple):
         total[place[mesh.freedoms[name][e]]] += value * (powers @ mesh.shapes[name][e])
 
 
+@pytest.mark.xfail(strict=True, reason="reactions lack the internal viscous part")
 @few(3)
 @given(
     lengths=st.sampled_from([(30.0,), (20.0, 25.0)]),
@@ -273,10 +274,9 @@ def test_reactions_are_those_of_the_unreduced_model_under_newmark(lengths, speed
     """Every freedom of the mesh, stepped by average acceleration, and what is missing at a held
     freedom.
 
-    R = (K d + M (d'' + alpha d') - f) there; the stiffness-proportional part of the damping is left
-    out, since section forces and reactions are the elastic ones. They differ where an axle steps on
-    or off: the mesh and 30 modes ring each in its own way for some milliseconds, a few percent of
-    the axle at most, much less on the whole.
+    R = (K (d + beta d') + M (d'' + alpha d') - f) there: what the bearing carries, the internal
+    viscous part with it. Without that part it would be ten times off on the whole. What is left are
+    modes and the samples next to an axle's stepping on or off.
     """
     alpha, beta = rb.rayleigh(0.03, (4.0, 40.0))
     beam = rb.Beam(
@@ -288,8 +288,8 @@ def test_reactions_are_those_of_the_unreduced_model_under_newmark(lengths, speed
         polar_inertia=5e4,
         elements=16 * len(lengths),
     )
-    deck = beam.deck(30, (alpha, beta))
-    length, step = deck.length, 1e-3
+    deck = beam.deck(60, (alpha, beta))
+    length, step = deck.length, 5e-4
     run = cross(
         rb.AxleTrain([0.0, 2.5], loads),
         deck,
@@ -331,11 +331,13 @@ def test_reactions_are_those_of_the_unreduced_model_under_newmark(lengths, speed
             )
             d, rate = guess + step**2 / 4 * acceleration, guess_rate + step / 2 * acceleration
         theirs[:, n] = (
-            k[rows, inner] @ d + m[rows, inner] @ (acceleration + alpha * rate) - load[rows]
+            k[rows, inner] @ (d + beta * rate)
+            + m[rows, inner] @ (acceleration + alpha * rate)
+            - load[rows]
         )
     theirs = dict(zip(deck.supports, theirs.reshape(-1, 2, len(run.time)), strict=True))
     for s, history in run.reactions().items():
-        limits = [("force_z", 1.0, 2.5e-2, 5e-3), ("moment_x", max(abs(offset), 0.1), 6e-2, 6e-3)]
+        limits = [("force_z", 1.0, 8e-3, 6e-4), ("moment_x", max(abs(offset), 0.1), 2.5e-2, 1.5e-3)]
         for known, (name, size, most, usual) in zip(theirs[s], limits, strict=True):
             error = np.abs(history[name] - known) / (size * max(loads))
             assert error.max() < most and np.sqrt(np.mean(error**2)) < usual, (s, name)
@@ -515,8 +517,9 @@ def test_bearings_carry_the_weight_where_it_stands(offset, aside, ahead, place, 
     middle_of_car = 1e-6 * run.time[n] - 3.0
     share = 1 - (middle_of_car + ahead) / 36.0
     first, second = run.reactions().values()
+    # Round-off of some 1e-9, most in the direct solution: a step lasts 1e7 of its fastest periods.
     assert [first["force_z"][n], second["force_z"][n]] == pytest.approx(
-        [weight * share, weight * (1 - share)], rel=1e-8
+        [weight * share, weight * (1 - share)], rel=1e-7
     )
     couple = weight * (offset + aside)
     # Where wheels stand at different distances from the middle of the track, their own share of the

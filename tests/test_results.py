@@ -83,3 +83,43 @@ def test_what_an_envelope_may_not_be_asked():
         RUN.envelope("moment")
     with pytest.raises(rb.InputError, match=r"^x\[2\] = 36.5"):
         RUN.envelope("displacement_z", [0.0, 36.5])
+
+
+@pytest.mark.parametrize("spans", [(12.1, 12.2, 12.3), (23.45600000000001,), (0.7, 0.1, 0.2)])
+def test_the_end_of_a_deck_is_its_end_however_it_is_rounded(spans):
+    deck = rb.Beam("decimals", spans, 12e3, 1.2e10).deck(3, 0.02)
+    step = deck.length / 1000
+    run = rb.cross(rb.AxleTrain([0.0], [1e5]), deck, speed=10.0, time_step=step, tail=0.0)
+    for name in ENVELOPE:
+        found = run.envelope(name)
+        assert found is None or found.x[-1] == deck.length
+    for end in (round(sum(spans), 9), sum(spans), deck.length * (1 + 1e-12)):
+        assert np.abs(run.displacement(end)["displacement_z"]).max() < 1e-12
+        assert run.displacement(end, self_weight=True)["displacement_z"] is not None
+        assert np.isfinite(run.acceleration(end)["acceleration_z"]).all()
+        assert np.array_equal(
+            run.section_forces(end)["shear_vertical"],
+            run.section_forces(deck.length)["shear_vertical"],
+        )
+        assert run.envelope("moment_vertical", [0.0, end]).x[-1] == deck.length
+    for x in (deck.length * (1 + 1e-6), -1e-6):
+        with pytest.raises(rb.InputError, match="^x = "):
+            deck.recovery.section("moment_vertical", x)
+        for ask in (run.displacement, run.velocity, run.acceleration, run.section_forces):
+            with pytest.raises(rb.InputError, match="^x = "):
+                ask(x)
+
+
+def test_what_one_works_with_is_shown_in_three_lines():
+    car = rb.vehicle("xia2000")
+    beam = rb.Beam("b", (10.0,) * 25, 1e4, 1e9)
+    track = rb.Track(rb.Table(np.arange(1000.0), np.zeros(1000)))
+    shown = [
+        RUN, RUN.deck, RUN.envelope("displacement_z"), RUN.deviations, RUN.displacement(18.0), beam,
+        car, car.modes(), car.system, RUN.train, rb.AxleTrain(np.arange(90.0), [1e5] * 90), track,
+        track.rail("vertical", "left"), RUN.settings, RUN.spectrum, beam.mesh.modes(3),
+        rb.case("paper"), rb.case("paper").train.car(1), RUN.deck.shapes,
+    ]  # fmt: skip
+    for thing in shown:
+        text = repr(thing)
+        assert type(thing).__name__ in text and len(text) <= 240 and "\n" not in text

@@ -154,3 +154,45 @@ def test_modes_that_hardly_ring_ask_for_no_finer_step():
     swings = rb.Beam("deck", (10.0,), 10e3, 4e9).deck(8, 0.01)
     s = check(rb.AxleTrain([0.0], [1e5]), swings, rb.Track(), speed=20.0)
     assert s.time_step == pytest.approx(max(1 / 8 / swings.frequencies_hz[-1], 1e-4))
+
+
+def spread(axles, apart):
+    return rb.AxleTrain([apart * i for i in range(axles)], [1e5] * axles)
+
+
+LONG = rb.Beam(
+    "in mm", (36_000.0,), mass=12e3, bending_stiffness_vertical=1e17, elements=12,
+).deck(modes=1, damping=0.03)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"speed": 0.02}, "speed = 0.02: this run would need"),
+        ({"time_step": 1e-6}, "time_step = 1e-06: "),
+        ({"tail": 5e3}, "tail = 5000.0: "),
+        ({"lead_in": 1e5}, "lead_in = 100000.0: "),
+        ({"max_iterations": 10_000, "time_step": 1e-4}, "max_iterations = 10000: "),
+        ({"iterations": 10_000, "time_step": 1e-4}, "iterations = 10000: "),
+        ({"train": rb.Train(CAR, cars=2, car_spacing=22_500.0)}, "train.car_spacing = 22500.0: "),
+        ({"train": rb.Train(CAR, cars=800)}, "train.cars = 800: "),
+        ({"train": spread(2, 50_000.0)}, "train.axles: the last axle is 50000 m behind"),
+        ({"train": spread(4000, 0.2)}, "train.axles: 4000 axles; this run"),
+        ({"deck": LONG}, "deck.length = 36000.0: "),
+        (
+            {"track": rb.Track(rb.Harmonic(1e-6, wavelength=1e-4))},
+            "track: 0.0001 m of irregularity ask for steps of 2.5e-07 s; this run would need",
+        ),
+        (
+            {"train": rb.Train(rb.sprung_mass("m", 1e3, 1e6, length=1e5), cars=2)},
+            "train.vehicle = 'm': cars are 5e+04 m apart or long; this run",
+        ),
+    ],
+)
+def test_too_large_a_run_is_refused_by_what_makes_it_so(changes, words):
+    """The refusal names the quantity that is too large, not always the time step."""
+    own = {"train": rb.Train(CAR), "deck": DECK, "track": rb.Track(), "speed": 20.0} | changes
+    three = own.pop("train"), own.pop("deck"), own.pop("track")
+    with pytest.raises(rb.InputError, match="GB of memory, too much: the limit is 2 GB") as error:
+        rb.cross(*three, **own)
+    assert str(error.value).startswith(words)

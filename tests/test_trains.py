@@ -1,5 +1,7 @@
 """Trains: where wheels stand, rigid-deck forces against closed forms, condensation by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -266,3 +268,61 @@ def test_what_has_no_steady_forces(change, said):
     }
     with pytest.raises(rb.InputError, match=said):
         rb.steady_forces(**good | change)
+
+
+def test_cars_that_overlap_are_named_with_the_spacing_they_need():
+    """Wheels of the paper's car stand 9.05 m before and behind its middle."""
+    with pytest.raises(
+        rb.InputError, match=r"cars 1 and 2 overlap.*need more than 18.1 m"
+    ) as error:
+        rb.Train(CAR, cars=3, car_spacing=18.1)
+    assert (error.value.field, error.value.value) == ("car_spacing", 18.1)
+    assert rb.Train(CAR, cars=3, car_spacing=18.1001).length > 0.0
+    short = replace(CAR, name="short", length=10.0)
+    words = r"^vehicle = 'short': its axles reach over 18.1 m, it is 10 m long"
+    with pytest.raises(rb.InputError, match=words):
+        rb.Train((CAR, CAR, short, short))
+
+
+def test_a_length_is_needed_only_where_the_spacing_is_not_given():
+    bare = replace(CAR, length=None)
+    assert rb.Train(bare).length == rb.Train(CAR).length
+    spaced = rb.Train(bare, cars=3, car_spacing=22.5)
+    assert spaced.centres.tolist() == rb.Train(CAR, cars=3).centres.tolist()
+    with pytest.raises(rb.InputError, match="car_spacing: is missing. Give it, or the length of"):
+        rb.Train((CAR, bare))
+    deck = rb.deck("viaduct36")
+    with pytest.raises(rb.InputError, match=r"excitation = 'car': .*xia2000 has no length"):
+        rb.cross(spaced, deck, speed=20.0, excitation="car")
+    with pytest.raises(rb.InputError, match=r"excitation = 'car': .*xia2000 has no length"):
+        rb.steady_forces(bare, waves(14.4), 20.0, "car")
+    options = {"speed": 20.0, "time_step": 4e-3, "interaction": "rigid"}
+    run, usual = (
+        rb.cross(t, deck, waves(14.4), **options) for t in (spaced, rb.Train(CAR, cars=3))
+    )
+    assert np.array_equal(run.wheel_forces, usual.wheel_forces)
+
+
+def test_runs_of_bare_axle_loads_can_be_added():
+    """They feel nothing of the deck: one train with all axles is the sum of two."""
+    deck = rb.Beam("simple", (30.0,), 12e3, 5e10).deck(6, 0.02)
+    options = {"speed": 40.0, "time_step": 2e-3}
+    first, second = ([0.0, 3.0], [1e5, 2e5]), ([0.0, 10.0, 13.0], [9e4, 9e4, 8e4])
+    together = rb.AxleTrain([0.0, 0.0004, 3.0, 10.0, 13.0], [1e5, 9e4, 2e5, 9e4, 8e4])
+    whole = rb.cross(together, deck, **options)
+    parts = [rb.cross(rb.AxleTrain(*train), deck, **options) for train in (first, second)]
+    n = min(len(run.time) for run in parts)
+    for name, ask in {
+        "displacement_z": lambda run: run.displacement(12.0),
+        "moment_vertical": lambda run: run.section_forces(12.0),
+        "force_z": lambda run: run.reactions()[30.0],
+    }.items():
+        total = sum(ask(run)[name][:n] for run in parts)
+        found = ask(whole)[name][:n]
+        assert np.abs(total - found).max() < 2e-3 * np.abs(found).max(), name
+
+
+def test_a_bogie_in_millimetres_is_blamed_itself():
+    parameters = rb.car_parameters("xia2000") | {"axle_spacing": 2500.0}
+    with pytest.raises(rb.InputError, match=r"^vehicle x: axle_spacing = 2500\.0: must be below"):
+        rb.two_bogie_car("x", **parameters)

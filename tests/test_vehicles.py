@@ -168,6 +168,15 @@ def test_planar_car_of_the_data_file_is_the_car_s_plane():
     assert rb.planar_car(rb.vehicle("sprung_mass")).labels == ("mass z",)
 
 
+def test_a_planar_car_weighs_what_the_car_does_wheelsets_included():
+    heavy = replace(CAR, static_wheelset_mass=1500.0)
+    plane = planar_car(heavy)
+    assert plane.static_wheelset_mass == 1500.0
+    assert plane.weight == pytest.approx(heavy.weight) and heavy.weight > CAR.weight + 5e4
+    assert [c.static_load for c in plane.contacts] == pytest.approx([heavy.weight / 4] * 4)
+    assert plane.length == CAR.length and plane.name == f"{CAR.name} planar"
+
+
 def test_springs_in_series_by_hand():
     ks, kt, m = 4 * 1060e3, 8 * 2976e3, 50990.0
     assert np.sqrt(ks * kt / (ks + kt) / m) / 2 / np.pi == pytest.approx(1.337, abs=5e-4)
@@ -296,3 +305,45 @@ def test_wheels_that_rounding_sets_apart_share_an_axle():
     assert [axle.delay for axle in train.placed_axles] == pytest.approx([0.0, 0.6, 2.0, 2.6])
     run = rb.cross(train, rb.deck("viaduct36"), speed=20.0, interaction="rigid")
     assert len(run.coupling.axles.starts) == 4
+
+
+def articulated(coaches=3, hung=()):
+    """Coaches of 18 m on shared bogies, with 2 t on each bogie, and what hangs in some of them."""
+    half = 9.0 * coaches
+    bodies, springs = [], []
+    for i in range(coaches):
+        x = half - 9.0 - 18.0 * i
+        bodies.append(rb.Body(f"coach {i + 1}", 24e3 - 4e3 * i, (4e4, 6e5, 6e5), (x, 0.0, 1.8)))
+    for i in range(coaches + 1):
+        x = half - 18.0 * i
+        bodies.append(rb.Body(f"bogie {i + 1}", 3e3, (2e3, 4e3, 4e3), (x, 0.0, 0.6)))
+        for axle in (x + 1.2, x - 1.2):
+            for y in (1.0, -1.0):
+                at, stiffness = (axle, y, 0.0), (4e6, 1.2e6)
+                springs.append(rb.Spring(f"bogie {i + 1}", "rail", at, stiffness, (2e4, 2e4)))
+        for coach in (i, i + 1):
+            if 1 <= coach <= coaches:
+                for y in (1.0, -1.0):
+                    ends = f"coach {coach}", f"bogie {i + 1}"
+                    springs.append(rb.Spring(*ends, (x, y, 1.0), (3e5, 4e5), (2e4, 2e4)))
+    for body in hung:
+        bodies.append(
+            rb.Body(f"under {body}", 4e3, (1e3, 1e3, 1e3), (half - 9.0, 0.0, 0.9), ("z",))
+        )
+        at = (half - 9.0, 0.0, 1.2)
+        springs.append(rb.Spring(body, f"under {body}", at, (0.0, 1e6), (0.0, 1e4)))
+    return rb.Vehicle("articulated", tuple(bodies), tuple(springs), 18.0 * coaches + 3.0)
+
+
+def test_every_coach_of_an_articulated_train_is_a_car_body():
+    train = articulated(3, hung=("coach 1",))
+    assert [b.name for b in train.car_bodies] == ["coach 1", "coach 2", "coach 3"]
+    assert train.body.name == "coach 1"
+    places = [(b.name, place, x) for b, place, x in train.body_places]
+    assert places[3:6] == [("coach 2", "front", 9.0), ("coach 2", "middle", 0.0),
+                           ("coach 2", "rear", -9.0)]  # fmt: skip
+    assert [b.name for b in CAR.car_bodies] == ["car"]
+    assert [(place, x) for _, place, x in CAR.body_places] == [
+        ("front", 7.8), ("middle", 0.0), ("rear", -7.8),
+    ]  # fmt: skip
+    assert [b.name for b in rb.vehicle("sprung_mass").car_bodies] == ["mass"]

@@ -5,8 +5,10 @@ Ends with Ctrl-C.
     python tools/app.py --no-browser   prints the address only
     python tools/app.py --port 8900    on a port of one's choice; default a free one
 
-Voila serves the page on this machine only; nothing is fetched from elsewhere. Numbers are computed
-here, for each page that is open by a kernel of its own.
+Voila serves the page on this machine only, and only under this machine's own names; nothing is
+fetched from elsewhere. Numbers are computed here, for each page that is open by a kernel of its
+own. A kernel takes 235 MB: it ends within a minute after its page was closed, and there are only so
+many.
 """
 
 import argparse
@@ -26,6 +28,8 @@ import nbformat
 ADDRESS = "127.0.0.1"
 STARTS_WITHIN = 60.0  # s
 NAME = "explorer.ipynb"
+MOST_PAGES = 8
+IDLE_SECONDS, LOOKED_FOR_EVERY = 30, 10  # together less than a minute
 
 # Letters grow with the page, for those in the last row; the picture takes the height that is left.
 STYLE = """<style>
@@ -96,6 +100,19 @@ def wait_until_ready(server, port, log):
         time.sleep(0.1)
 
 
+def limits(pages, idle):
+    """Options of the server: how many pages, how long a kernel whose page is closed stays (s), and
+    no answer to whoever calls this machine by a foreign name (a page elsewhere whose name was made
+    to lead here)."""
+    return [
+        "--VoilaConfiguration.multi_kernel_manager_class=app_kernels.FewKernels",
+        f"--FewKernels.most={pages}",
+        f"--MappingKernelManager.cull_idle_timeout={idle}",
+        f"--MappingKernelManager.cull_interval={min(idle, LOOKED_FOR_EVERY)}",
+        "--Voila.tornado_settings={'allow_remote_access': False}",
+    ]
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(description="Show the explorer of notebook 00 as a web page.")
     parser.add_argument("--no-browser", action="store_true", help="print the address only")
@@ -120,9 +137,12 @@ def main(arguments):
             f"--port={port}",
             f"--Voila.ip={ADDRESS}",
         ]
-        command += ["--template=explorer", "--theme=light"]
+        command += ["--template=explorer", "--theme=light", *limits(MOST_PAGES, IDLE_SECONDS)]
         found = os.pathsep.join(filter(None, [folder, os.environ.get("JUPYTER_PATH")]))
-        environment = {"OMP_NUM_THREADS": "1", **os.environ, "JUPYTER_PATH": found}
+        modules = [str(Path(__file__).resolve().parent), os.environ.get("PYTHONPATH")]
+        modules = os.pathsep.join(filter(None, modules))
+        own = {"JUPYTER_PATH": found, "PYTHONPATH": modules}
+        environment = {"OMP_NUM_THREADS": "1", **os.environ, **own}
         with log.open("w", encoding="utf-8") as stream:
             server = subprocess.Popen(
                 command, cwd=folder, env=environment, stdout=stream, stderr=subprocess.STDOUT

@@ -7,7 +7,8 @@
 Any Python >= 3.11 with its standard library runs this file. It installs the versions of
 requirements.lock with uv, which is several times faster than pip and byte-compiles in parallel, and
 falls back to pip where uv cannot be had or cannot reach the package index. The stamp
-`.venv/railbridge-stamp.json` is written last, so an interrupted run is noticed and repaired.
+`.venv/railbridge-stamp.json` is written last, so an interrupted run is noticed and repaired. It
+also lists what was installed: a package that was removed or exchanged since is put back.
 """
 
 import ast
@@ -25,6 +26,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 OLDEST_PYTHON = "3.11"
 EXTRAS = ("fem", "app", "site", "test", "dev")
+
+# Those who keep their installers new have done nothing wrong.
+NOT_OURS = re.compile(r"__pycache__|(pip|setuptools|wheel)-.*")
 
 # pip's settings -> uv's environment variables: uv does not read pip's configuration, where people
 # name their mirrors.
@@ -67,8 +71,21 @@ class Environment:
         except (OSError, ValueError):
             return {}
 
+    def installed(self):
+        """Names of all that stands where packages are installed, a folder or a file each; the
+        folders of metadata bear the versions."""
+        found = [*self.path.glob("lib/python*/site-packages"), self.path / "Lib" / "site-packages"]
+        return {entry for folder in found if folder.is_dir() for entry in os.listdir(folder)}
+
+    def missing(self):
+        """What was installed and is not there any more."""
+        gone = set(self.stamped().get("installed", ())) - self.installed()
+        return {entry for entry in gone if not NOT_OURS.fullmatch(entry)}
+
     def is_right(self):
-        return self.stamped() == self.wanted() and self.python.exists()
+        stamp = self.stamped()
+        same = all(stamp.get(name) == value for name, value in self.wanted().items())
+        return same and "installed" in stamp and self.python.exists() and not self.missing()
 
     def must_start_over(self):
         """True if what stands there is half-made, moved from another folder, or has lost its
@@ -82,6 +99,8 @@ class Environment:
         """Create or update the environment; the stamp goes first and comes back last."""
         wanted = self.wanted()
         fresh = self.must_start_over()
+        # What an installer left of a package would make it believe that all of it is there.
+        anew = not fresh and bool(self.missing())
         if fresh:
             require_venv()
             if self.path.is_symlink():
@@ -96,14 +115,18 @@ class Environment:
             run([sys.executable, "-m", "venv", str(self.path)])
         elif subprocess.run([self.python, "-c", "import pip"], capture_output=True).returncode:
             run([self.python, "-m", "ensurepip"])
-        say("installing the locked packages ...")
-        if not (self.has_uv() and self.install_with_uv()):
+        if anew:
+            say("packages are missing; installing all of them anew ...")
+        else:
+            say("installing the locked packages ...")
+        if not (self.has_uv(anew) and self.install_with_uv(anew)):
             say("uv is not to be had; installing with pip, which takes longer ...")
-            self.install_with_pip()
-        self.stamp.write_text(json.dumps(wanted), encoding="utf-8")
+            self.install_with_pip(anew)
+        stamp = {**wanted, "installed": sorted(self.installed())}
+        self.stamp.write_text(json.dumps(stamp), encoding="utf-8")
         self.unfinished.unlink()
 
-    def has_uv(self):
+    def has_uv(self, anew=False):
         """Put the locked uv into the environment; False where that fails."""
         locked = [line for line in self.locked_lines() if re.match(r"uv\s*==", line)]
         wheel_only = ["--only-binary=:all:", "--no-deps", "--no-compile", "--quiet"]
@@ -114,6 +137,7 @@ class Environment:
             "--disable-pip-version-check",
             "install",
             *wheel_only,
+            *["--force-reinstall"] * anew,
             *(locked or ["uv"]),
         ]
         return subprocess.run(command, capture_output=True).returncode == 0
@@ -121,7 +145,7 @@ class Environment:
     def locked_lines(self):
         return self.lock.read_text(encoding="utf-8").splitlines() if self.lock.exists() else []
 
-    def install_with_uv(self):
+    def install_with_uv(self, anew=False):
         uv = [
             self.python,
             "-m",
@@ -137,14 +161,14 @@ class Environment:
         return all(
             subprocess.run([*uv, *what], cwd=self.root, env=environment).returncode == 0
             for what in (
-                ["--compile-bytecode", "-r", str(self.lock)],
+                ["--compile-bytecode", *["--reinstall"] * anew, "-r", str(self.lock)],
                 # After the lock: the build backend is now in the environment, so nothing is fetched
                 # to build with.
                 ["--no-build-isolation", "-e", "."],
             )
         )
 
-    def install_with_pip(self):
+    def install_with_pip(self, anew=False):
         pip = [
             self.python,
             "-m",
@@ -154,7 +178,7 @@ class Environment:
             "--quiet",
             "--no-deps",
         ]
-        run([*pip, "-r", str(self.lock)], cwd=self.root)
+        run([*pip, *["--force-reinstall"] * anew, "-r", str(self.lock)], cwd=self.root)
         run([*pip, "--no-build-isolation", "-e", "."], cwd=self.root)
 
     def write_lock(self, *options):

@@ -23,7 +23,8 @@ from importlib import import_module as _import_module
 from .beams import Beam, Bearing
 from .crossing import NotConvergedError, cross
 from .decks import Deck, History, rayleigh, rayleigh_ratio
-from .errors import InputError
+from .errors import InputError, InputWarning, ResultWarning
+from .notices import remarks
 from .results import Crossing
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .tracks import FadeIn, Harmonic, Level, Notch, Rails, Table, Track
@@ -54,12 +55,13 @@ _MODULES = {
 }
 
 __all__ = [
-    "CONDENSED", "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "Case", "Crossing",
-    "Deck", "FadeIn", "Harmonic", "History", "InputError", "Level", "NotConvergedError", "Notch",
-    "Pads", "Passage", "Rails", "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle",
-    "amplitude_spectrum", "box", "car_parameters", "case", "compared", "cross", "data_root", "deck",
-    "deck_from_table", "deviation_percent", "planar_car", "rayleigh", "rayleigh_ratio",
-    "sprung_mass", "steady_forces", "summarize", "two_bogie_car", "vehicle",
+    "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "CONDENSED", "Case", "Crossing",
+    "Deck", "FadeIn", "Harmonic", "History", "InputError", "InputWarning", "Level",
+    "NotConvergedError", "Notch", "Pads", "Passage", "Rails", "ResultWarning", "Spectrum", "Spring",
+    "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box", "car_parameters", "case",
+    "compared", "cross", "data_root", "deck", "deck_from_table", "deviation_percent", "planar_car",
+    "rayleigh", "rayleigh_ratio", "remarks", "sprung_mass", "steady_forces", "summarize",
+    "two_bogie_car", "vehicle",
 ]  # fmt: skip
 
 

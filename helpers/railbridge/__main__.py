@@ -2,6 +2,6 @@
 
 import sys
 
-from .cases.command import main
+from railbridge_command import main
 
 sys.exit(main())

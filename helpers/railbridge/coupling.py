@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .decks import Deck
-from .errors import frozen
+from .errors import brief, frozen
 from .guideways import Guideway, Stations
 from .response import SampledModes
 from .settings import Settings
@@ -41,6 +41,8 @@ One array for each car, shape (wheels, 2, n).
 @dataclass(frozen=True, eq=False)
 class DeckState:
     """The deck's modal coordinates, velocities and forces, each shape (modes, samples)."""
+
+    __repr__ = brief
 
     q: np.ndarray
     velocity: np.ndarray
@@ -108,6 +110,8 @@ class Coupling:
     modes : SampledModes or None
         The deck's.
     """
+
+    __repr__ = brief
 
     train: AnyTrain
     deck: Guideway
@@ -236,8 +240,8 @@ class Coupling:
     def body_accelerations(self, state: DeckState) -> list[np.ndarray]:
         """Return what the deck's motion adds to every car body's accelerations, m/s2.
 
-        Each shape (3, 2, samples), places as for `Vehicle.sampled_body`. Each car runs on over the
-        level track behind the deck. None of bare axle loads.
+        Each shape (places, 2, samples), places as for `Vehicle.sampled_body`. Each car runs on over
+        the level track behind the deck. None of bare axle loads.
         """
         result = []
         for c in self.cars:
@@ -246,7 +250,7 @@ class Coupling:
             met = self.support_input(state, [c])[:, :, 0]
             u = np.zeros((*met.shape[:2], len(self.time) - c.window.start))
             u[..., : met.shape[2]] = met
-            added = np.zeros((3, 2, len(self.time)))
+            added = np.zeros((len(c.car.vehicle.body_places), 2, len(self.time)))
             respond = c.car.vehicle.sampled_body(self.settings.time_step)
             added[..., c.window.start :] = respond(u)
             result.append(added)

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import inspect
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import fields
 from typing import get_type_hints
 
 from .coupling import iterate, prepare
 from .decks import Deck
 from .direct import solve_directly
-from .errors import InputWarning, ResultWarning
+from .errors import InputWarning, Remark, ResultWarning
 from .notices import remarks
 from .results import Crossing
 from .settings import Options, Settings, check
 from .tracks import Track
 from .trains import AnyTrain
 
-__all__ = ["NotConvergedError", "compute", "cross"]
+__all__ = ["NotConvergedError", "compute", "cross", "warn_of"]
 
 
 class NotConvergedError(RuntimeError):
@@ -34,11 +34,18 @@ class NotConvergedError(RuntimeError):
 
     def __init__(self, run: Crossing, path: str = "") -> None:
         s = run.settings
-        other = "interaction = 'direct'" if s.loads == "wheels" else "loads = 'wheels'"
+        remedies = [f"{path}relaxation = 0.5 or 'aitken'", f"more {path}max_iterations"]
+        direct = f"{path}interaction = 'direct'"
+        if s.loads == "wheels":
+            # It always ends, where wheels on stiff contacts may take hundreds of passes.
+            with_all = "" if s.feedback == "all" else f" with {path}feedback = 'all'"
+            remedies.insert(0, direct + with_all)
+        else:
+            remedies.append(f"{path}loads = 'wheels' with {direct}")
         super().__init__(
             f"{path}max_iterations = {run.iterations}: not converged, the last change was "
             f"{run.changes[-1]:.2g} and must be below {path}tolerance = {s.tolerance:g} twice in a "
-            f"row. Try {path}relaxation = 0.5 or 'aitken', more {path}max_iterations, or {other}."
+            f"row. Try {', '.join(remedies[:-1])}, or {remedies[-1]}."
         )
         self.run = run
 
@@ -108,11 +115,20 @@ def cross(
     """
     track = Track() if track is None else track
     settings = check(train, deck, track, **options)
-    run = compute(train, deck, track, settings, progress)
-    for remark in remarks(run):
-        if isinstance(remark, (InputWarning, ResultWarning)):
-            warnings.warn(remark, stacklevel=2)
+    try:
+        run = compute(train, deck, track, settings, progress)
+    except NotConvergedError as error:
+        warn_of(remarks(error.run))  # a slip may be why
+        raise
+    warn_of(remarks(run))
     return run
+
+
+def warn_of(found: Iterable[Remark]) -> None:
+    """Warn of what is doubtful, in the name of who called the caller."""
+    for remark in found:
+        if isinstance(remark, (InputWarning, ResultWarning)):
+            warnings.warn(remark, stacklevel=3)
 
 
 def compute(

@@ -31,13 +31,13 @@ from typing import Protocol
 import numpy as np
 
 from . import errors
-from .errors import InputError, Range, Remark, frozen
+from .errors import InputError, Range, Remark, ResultWarning, brief, frozen
 from .guideways import Guideway, PiecewiseCubic
 from .response import SampledModes, lagged, sampled_modes
 
 __all__ = [
     "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
-    "ModesOnly", "RATIO", "Recovery", "checked_damping", "damping_ratios", "rayleigh",
+    "ModesOnly", "RATIO", "Recovery", "checked_damping", "cut_group", "damping_ratios", "rayleigh",
     "rayleigh_ratio", "whole_group",
 ]  # fmt: skip
 
@@ -75,7 +75,10 @@ def rayleigh(ratio: float, frequencies_hz: Sequence[float]) -> tuple[float, floa
 
 def rayleigh_ratio(alpha: float, beta: float, frequencies_hz: np.ndarray) -> np.ndarray:
     """Return the damping ratio at each frequency (Hz)."""
-    omega = 2 * np.pi * np.asarray(frequencies_hz, dtype=float)
+    alpha = errors.number("alpha", alpha, least=0.0, unit="1/s")
+    beta = errors.number("beta", beta, least=0.0, unit="s")
+    checked = errors.number if np.ndim(frequencies_hz) == 0 else errors.numbers
+    omega = 2 * np.pi * checked("frequencies_hz", frequencies_hz, above=0.0, unit="Hz")
     return alpha / (2 * omega) + beta * omega / 2
 
 
@@ -111,6 +114,27 @@ def whole_group(frequencies_hz: np.ndarray, count: int) -> int:
     return count
 
 
+def cut_group(field: str, frequencies_hz: np.ndarray, count: int) -> list[Remark]:
+    """Say where so many modes end in the middle of a group of equal frequencies; see `whole_group`.
+
+    Parameters
+    ----------
+    field : str
+        What the caller calls the number of modes.
+    frequencies_hz : ndarray, shape (m,)
+        Ascending, with those beyond the last mode kept.
+    count : int
+    """
+    whole = whole_group(frequencies_hz, count)
+    if whole == count:
+        return []
+    text = (
+        f"= {count} cuts a group of equal frequencies, {frequencies_hz[count]:.6g} Hz: only "
+        f"together do they move the whole deck. Take {whole}."
+    )
+    return [ResultWarning(field, text)]
+
+
 @dataclass(frozen=True, eq=False)
 class Line:
     """How one output follows from the deck's state and loads.
@@ -124,6 +148,8 @@ class Line:
     self_weight : float
         The output under the deck's own weight.
     """
+
+    __repr__ = brief
 
     modal: np.ndarray
     influence: PiecewiseCubic
@@ -164,6 +190,8 @@ class ModesOnly:
     shapes : PiecewiseCubic
     frequencies_hz : ndarray, shape (m,)
     """
+
+    __repr__ = brief
 
     shapes: PiecewiseCubic
     frequencies_hz: np.ndarray
@@ -208,6 +236,8 @@ class History:
     jumps : callable or None
         From a name to times (s) and values between the samples, on both sides of what jumps.
     """
+
+    __repr__ = brief
 
     time: np.ndarray
     values: dict[str, np.ndarray]
@@ -276,6 +306,8 @@ class Deck(Guideway):
     remarks : tuple of Remark
         What whoever made the deck doubts about it, or what it leaves out.
     """
+
+    __repr__ = brief
 
     frequencies_hz: np.ndarray
     damping_ratios: np.ndarray

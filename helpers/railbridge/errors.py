@@ -18,20 +18,27 @@ files are made from the same types.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator, Mapping
+import json
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 __all__ = [
-    "FieldType", "InputError", "InputWarning", "Range", "Remark", "ResultWarning", "boolean",
-    "check_fields", "choice", "did_you_mean", "field_types", "frozen", "integer", "joined", "keys",
-    "number", "numbers", "plain", "table", "text", "within",
+    "FieldType", "InputError", "InputWarning", "ROUNDED", "Range", "Remark", "ResultWarning",
+    "boolean", "brief", "check_fields", "choice", "clipped", "did_you_mean", "field_types",
+    "frozen", "instance", "instances", "integer", "is_list", "joined", "keys", "number", "numbers",
+    "place", "places", "plain", "printable", "table", "text", "within",
+    "written",
 ]  # fmt: skip
+
+
+_Kind = TypeVar("_Kind")
 
 
 class InputError(ValueError):
@@ -54,10 +61,10 @@ class InputError(ValueError):
     def __init__(
         self, field: str, value: Any, allowed: str, remedy: str = "", source: str = ""
     ) -> None:
-        place = ": ".join(part for part in (source, field) if part)
+        place = ": ".join(clipped(part, 160) for part in (source, field) if part)
         given = "" if value is None else f" = {_short(value)}"
         advice = f" {remedy}" + "." * (not remedy.endswith("?")) if remedy else ""
-        super().__init__(f"{place}{given}: {allowed}.{advice}")
+        super().__init__(printable(f"{place}{given}: {clipped(allowed, 400)}.{advice}"))
         self.field, self.value, self.allowed, self.remedy = field, value, allowed, remedy
         self.source = source
 
@@ -86,7 +93,7 @@ class Remark(UserWarning):
     """
 
     def __init__(self, field: str, text: str) -> None:
-        super().__init__(f"{field} {text}" if field else text)
+        super().__init__(printable(f"{field} {text}" if field else text))
         self.field, self.text = field, text
 
     def moved(self, path: str = "", names: Mapping[str, str] | None = None) -> Remark:
@@ -113,6 +120,11 @@ def _renamed(field: str, names: Mapping[str, str]) -> str:
 def joined(path: str, field: str) -> str:
     """Return the path of a field of what stands at `path`; either may be empty."""
     return f"{path}.{field}" if path and field and not field.startswith("[") else path + field
+
+
+def written(key: str) -> str:
+    """Return a key as it is written in a file: one that is empty or holds dots needs quotes."""
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key)
 
 
 @contextmanager
@@ -142,8 +154,53 @@ def _short(value: Any) -> str:
         value = value.item()
     if isinstance(value, np.ndarray):
         value = value.tolist()
-    text = repr(value)
+    try:
+        text = repr(value)
+    except Exception:  # a whole number of too many digits, or anybody's object
+        text = f"<{type(value).__name__}>"
     return text if len(text) <= 60 else text[:57] + "..."
+
+
+def printable(text: str) -> str:
+    r"""Return a text whose control characters are shown, not obeyed: ``\x1b`` for an escape.
+
+    A terminal would obey those in names that come from files.
+    """
+    if text.isprintable():
+        return text
+    shown = (c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    return "".join(shown)
+
+
+def clipped(text: str, most: int) -> str:
+    """Return a text without its middle where it is longer than `most` letters."""
+    half = (most - 5) // 2
+    return text if len(text) <= most else f"{text[:half]} ... {text[-half:]}"
+
+
+def brief(thing: Any) -> str:
+    """Return a representation of a dataclass that fits into three lines.
+
+    What is long is counted, arrays give their shape, and parts of parts are left out.
+    """
+    shown = [f for f in fields(thing) if f.repr]
+    parts = ", ".join(f"{f.name}={_brief(getattr(thing, f.name))}" for f in shown)
+    text = f"{type(thing).__name__}({parts})"
+    return text if len(text) <= 240 else text[:235] + " ...)"
+
+
+def _brief(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return f"<array {' x '.join(map(str, value.shape))}>"
+    if is_dataclass(value) and not isinstance(value, type):
+        name = getattr(value, "name", None)
+        return type(value).__name__ + (f"({name!r})" if isinstance(name, str) else "(...)")
+    if isinstance(value, (list, tuple, Mapping)) and len(value):
+        inside = value.items() if isinstance(value, Mapping) else ((None, v) for v in value)
+        parts = [("" if k is None else f"{k}: ") + _brief(v) for k, v in list(inside)[:7]]
+        text = ", ".join(parts)
+        return f"[{text}]" if len(value) <= 6 and len(text) <= 60 else f"<{len(value)} items>"
+    return _short(value)
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
@@ -182,8 +239,9 @@ class Range:
     def allowed(self) -> str:
         """The range in words."""
         bounds = [("above", self.above), ("at least", self.least), ("at most", self.most)]
-        words = " and ".join(f"{word} {bound:g}" for word, bound in bounds if bound is not None)
-        return " ".join(part for part in ("must be a finite number", words, self.unit) if part)
+        words = " and ".join(f"{word} {bound:.9g}" for word, bound in bounds if bound is not None)
+        unit = self.unit if words else self.unit and f"in {self.unit}"
+        return " ".join(part for part in ("must be a finite number", words, unit) if part)
 
     def checked(self, field: str, value: Any) -> float | int:
         """Return `value` as a float (an int if whole) within the range, or raise `InputError`."""
@@ -220,7 +278,7 @@ def integer(field: str, value: Any, *, least: int = 0, **limits: Any) -> int:
 
 def numbers(field: str, values: Any, *, count: int | None = None, **limits: Any) -> np.ndarray:
     """Return `values` as a 1-D float array, each within limits, or raise `InputError`."""
-    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
+    if not is_list(values):
         length = f" of length {count}" if count else ""
         raise InputError(field, values, f"must be a list of numbers{length}")
     bounds = Range(**limits)
@@ -230,7 +288,67 @@ def numbers(field: str, values: Any, *, count: int | None = None, **limits: Any)
     return np.array(result, dtype=float)
 
 
+ROUNDED = 1e-6
+"""Share of a length by which a place may miss an end where people or programs round: 99.9999."""
+
+
+def place(
+    field: str, value: Any, ends: Sequence[float], *, slack: float = 1e-9, remedy: str = ""
+) -> float:
+    """Return a place between the first and the last of some ends, or raise `InputError`.
+
+    A place that misses an end by rounding only is that end: 12.1 + 12.2 + 12.3 is not 36.6.
+
+    Parameters
+    ----------
+    field : str
+    value : float
+        m.
+    ends : sequence of float
+        m, ascending; those between the first and the last attract places likewise.
+    slack : float
+        Share of the whole length (of a metre where that is shorter) that is rounding.
+    remedy : str
+    """
+    value = number(field, value, unit="m", remedy=remedy)
+    least, most = float(ends[0]), float(ends[-1])
+    nearest = float(min(ends, key=lambda end: abs(end - value)))
+    if abs(value - nearest) <= slack * max(most - least, 1.0):
+        return nearest
+    return number(field, value, least=least, most=most, unit="m", remedy=remedy)
+
+
+def places(
+    field: str, values: Any, ends: Sequence[float], *, slack: float = 1e-9, remedy: str = ""
+) -> np.ndarray:
+    """Return several places as a 1-D array, m; see `place`."""
+    given = numbers(field, values, unit="m").tolist()
+    named = ((f"{field}[{i}]", value) for i, value in enumerate(given, start=1))
+    return np.array([place(*each, ends, slack=slack, remedy=remedy) for each in named])
+
+
 # ---- other kinds of values
+
+
+def is_list(value: Any) -> bool:
+    """Whether a value lists others: no text, no mapping, and no array of one number."""
+    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable):
+        return False
+    return not isinstance(value, np.ndarray) or value.ndim > 0
+
+
+def instance(field: str, value: Any, kind: type[_Kind]) -> _Kind:
+    """Return `value` if it is of a kind (``Vehicle``, ``Deck``), or raise `InputError`."""
+    if not isinstance(value, kind):
+        raise InputError(field, value, f"must be a {kind.__name__}")
+    return value
+
+
+def instances(field: str, values: Any, kind: type[_Kind]) -> tuple[_Kind, ...]:
+    """Return a list of objects of one kind as a tuple, or raise `InputError`."""
+    if not is_list(values):
+        raise InputError(field, values, f"must be a list of {kind.__name__} objects")
+    return tuple(instance(f"{field}[{i}]", v, kind) for i, v in enumerate(values, start=1))
 
 
 def boolean(field: str, value: Any) -> bool:
@@ -270,7 +388,8 @@ def keys(
     allowed = [*allowed, *(k for k in required if k not in allowed)]
     for key in given:
         if key not in allowed:
-            raise InputError(joined(field, key), None, "unknown key", did_you_mean(key, allowed))
+            name = joined(field, written(key))
+            raise InputError(name, None, "unknown key", did_you_mean(key, allowed))
     for key in required:
         if key not in given:
             remedy = f"Add {key} to {field or 'the file'}"
@@ -289,7 +408,7 @@ def plain(field: str, value: Any, depth: int = 0) -> Any:
     if depth < 20:
         if isinstance(value, Mapping):
             named = table(field, value).items()
-            return {k: plain(joined(field, k), v, depth + 1) for k, v in named}
+            return {k: plain(joined(field, written(k)), v, depth + 1) for k, v in named}
         if isinstance(value, (list, tuple)):
             return [plain(f"{field}[{i}]", v, depth + 1) for i, v in enumerate(value, start=1)]
     allowed = "must be a number, a text, true or false, or a list or table of them"

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.lib.stride_tricks import as_strided
 
 from . import errors
-from .errors import InputError
+from .errors import InputError, brief
 
 __all__ = ["COMPONENTS", "Guideway", "PiecewiseCubic", "Stations"]
 
@@ -40,6 +40,8 @@ class PiecewiseCubic:
         Powers 0..3 of the local coordinate 0..1, for n functions of three components (y, z, roll),
         or of as many as there are.
     """
+
+    __repr__ = brief
 
     edges: np.ndarray
     coefficients: np.ndarray
@@ -212,6 +214,8 @@ class Guideway:
         the rail moves sideways by v - h theta.
     """
 
+    __repr__ = brief
+
     name: str
     length: float
     shapes: PiecewiseCubic
@@ -247,10 +251,9 @@ class Guideway:
                 )
             errors.choice("track_offset", track, self.tracks)
             return self.tracks[track]
-        limit = self.width / 2 if self.width else None
-        return errors.number(
-            "track_offset", track, least=None if limit is None else -limit, most=limit, unit="m"
-        )
+        if not self.width:
+            return errors.number("track_offset", track, unit="m")
+        return errors.place("track_offset", track, (-self.width / 2, self.width / 2))
 
     def stations(
         self, delays: np.ndarray, speed: float, time_step: float, samples: int

@@ -23,7 +23,7 @@ import numpy as np
 from scipy.linalg import eig, expm, matrix_balance
 from scipy.signal import lfilter, lsim
 
-from .errors import number
+from .errors import brief, number
 
 __all__ = [
     "LinearSystem", "SampledModes", "SampledResponse", "lagged", "moved_on", "oscillator",
@@ -95,6 +95,8 @@ class LinearSystem:
     b : ndarray, shape (n, p)
     c : ndarray, shape (q, n)
     """
+
+    __repr__ = brief
 
     a: np.ndarray
     b: np.ndarray
@@ -171,6 +173,8 @@ class SampledResponse:
         coincide.
     """
 
+    __repr__ = brief
+
     time_step: float
     system: LinearSystem
     coefficients: tuple[np.ndarray, np.ndarray, np.ndarray] | None
@@ -233,6 +237,8 @@ class SampledModes:
     others : dict of SampledResponse
         Modes that do not swing, by number from 0; the general response runs them.
     """
+
+    __repr__ = brief
 
     coefficients: tuple[np.ndarray, np.ndarray, np.ndarray]
     poles: np.ndarray

@@ -21,7 +21,7 @@ from .decks import (
     History,
     Line,
 )
-from .errors import InputError, frozen
+from .errors import InputError, brief, frozen
 from .settings import STATIONS, Settings
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .statics import MovingLoads, static_extremes
@@ -47,6 +47,8 @@ class Deviations:
     ----------
     from_rigid, from_previous : ndarray, shape (iterations,)
     """
+
+    __repr__ = brief
 
     from_rigid: np.ndarray
     from_previous: np.ndarray
@@ -78,6 +80,8 @@ class Envelope:
         For each place times (s) and values between the samples, on both sides of what jumps;
         empty where nothing does.
     """
+
+    __repr__ = brief
 
     x: np.ndarray
     time: np.ndarray
@@ -118,6 +122,8 @@ class Crossing:
     states : dict of DeckState
         The deck's state by iteration, as far as it is known; shared by what `at` returns.
     """
+
+    __repr__ = brief
 
     train: AnyTrain
     deck: Deck
@@ -251,10 +257,11 @@ class Crossing:
 
     @cached_property
     def body_accelerations(self) -> np.ndarray:
-        """Accelerations of every car body, m/s2, shape (cars, 3, 2, n).
+        """Accelerations of every car body, m/s2, shape (cars, places, 2, n).
 
-        Front, middle, rear; lateral, vertical; see `Vehicle.sampled_body`. Over the whole record.
-        No cars for bare axle loads.
+        At each of `Vehicle.body_places`: front, middle, rear, of an articulated train those of
+        every coach; lateral, vertical. NaN where another car of the train has more coaches. Over
+        the whole record. No cars for bare axle loads.
         """
         if not self.train.kinds():
             return frozen(np.zeros((0, 3, 2, len(self.time))))
@@ -262,7 +269,11 @@ class Crossing:
         if self.iteration > 0:
             added = self.coupling.body_accelerations(self._felt)
             rigid = [r + a for r, a in zip(rigid, added, strict=True)]
-        return frozen(np.array(rigid))
+        most = max(len(own) for own in rigid)
+        result = np.full((len(rigid), most, 2, len(self.time)), np.nan)
+        for car, own in zip(result, rigid, strict=True):
+            car[: len(own)] = own
+        return frozen(result)
 
     def car_forces(self, car: int = 1, at: str = "track", static: bool = True) -> History:
         """Return one car's wheel forces condensed to five components (Figures 9 to 11).
@@ -326,7 +337,7 @@ class Crossing:
         kept_only : bool
             Whether the modes left out are not counted: what the wheels feel.
         """
-        x = errors.number("x", x, least=0.0, most=self.deck.length, unit="m")
+        x = errors.place("x", x, (0.0, self.deck.length))
         recovery = self.deck.recovery
         if self_weight and recovery.lacks:
             raise InputError("deck", self.deck.name, recovery.lacks)
@@ -367,7 +378,7 @@ class Crossing:
         return self._motion("acceleration", x, self._modal_acceleration, units)
 
     def _motion(self, kind: str, x: float, modal: np.ndarray, units: tuple[str, ...]) -> History:
-        x = errors.number("x", x, least=0.0, most=self.deck.length, unit="m")
+        x = errors.place("x", x, (0.0, self.deck.length))
         names = [f"{kind}_y", f"{kind}_z", f"{kind}_roll"]
         values = dict(zip(names, self._moving(x, modal), strict=True))
         return History(self.time, values, dict(zip(names, units, strict=True)), f"x = {x:g} m")
@@ -395,6 +406,7 @@ class Crossing:
             A deck of which only modes are known.
         """
         self._refuse_lacks()
+        x = errors.place("x", x, (0.0, self.deck.length))
         lines = {name: self.deck.recovery.section(name, x) for name in _FORCES}
         return self.recovered(lines, SECTION_QUANTITIES, self_weight, f"x = {x:g} m")
 
@@ -496,7 +508,7 @@ class Crossing:
         errors.choice("quantity", quantity, ENVELOPE)
         if x is None:
             x = np.linspace(0.0, self.deck.length, STATIONS).round(9)
-        x = errors.numbers("x", x, least=0.0, most=self.deck.length, unit="m")
+        x = errors.places("x", x, (0.0, self.deck.length))
         deck, state = self.deck, self.state
         if quantity == "acceleration_z":
             if not deck.has["z"]:

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
 from . import errors
 from .decks import Deck
-from .errors import InputError, Range, check_fields
+from .errors import InputError, Range, brief, check_fields
 from .guideways import Guideway
 from .tracks import Track
-from .trains import AnyTrain, Passage
+from .trains import AnyTrain, AxleTrain, Passage
 
 __all__ = [
-    "COARSE_SAMPLES_PER_PERIOD", "LEAD_IN_SECONDS", "Options", "Settings", "bytes_needed", "check",
-    "default_time_step", "highest_frequency",
+    "COARSE_SAMPLES_PER_PERIOD", "LEAD_IN_SECONDS", "MEMORY_LIMIT", "Options", "Settings",
+    "bytes_needed", "check", "default_time_step", "highest_frequency", "refuse_bytes",
 ]  # fmt: skip
 
 LEAD_IN_SECONDS = 7.5
@@ -83,6 +83,8 @@ class Options:
         without twist (a guess at the paper's reading).
     """
 
+    __repr__ = brief
+
     speed: Annotated[float, Range(above=0.0, most=200.0, unit="m/s", remedy=_IN_METRES)]
     loads: Literal["wheels", "bogies", "condensed"] = "wheels"
     interaction: Literal["iterate", "rigid", "direct"] = "iterate"
@@ -127,6 +129,8 @@ class Settings(Options):
         Samples from t = 0, when the first axle enters, to the end of the tail.
     """
 
+    __repr__ = brief
+
     samples: int
 
     @property
@@ -158,6 +162,8 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
     errors.keys("", options, [f.name for f in fields(Options)], ["speed"])
     asked = Options(**options)
     train.formation[0].condensation(asked.loads)
+    if asked.excitation == "car":
+        _ = [vehicle.front for vehicle, _ in train.kinds()]  # which each of them must have
     step = _time_step(train, deck, track, asked)
     advance = asked.speed * step
     chosen = {
@@ -167,14 +173,14 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
         "samples": int(np.ceil((deck.length + train.length) / advance + asked.tail / step)) + 1,
     }
     settings = Settings(**(vars(asked) | chosen))
-    _refuse_size(train, deck, settings)
+    _refuse_size(train, deck, track, asked, settings)
     return settings
 
 
 def _track_offset(train: AnyTrain, deck: Guideway, given: float | str) -> float:
     offset = deck.track_offset(given)
     for wheel in train.wheels:
-        if deck.width is not None and abs(offset + wheel.y) > deck.width / 2:
+        if deck.width is not None and abs(offset + wheel.y) > deck.width / 2 + 1e-9:
             where = f"wheel {wheel.number} of car {wheel.car} at y = {offset + wheel.y:g} m"
             allowed = f"{where} is off the deck, half width {deck.width / 2:g} m"
             remedy = "Move the track towards the axis, or correct the deck's width"
@@ -268,15 +274,81 @@ def bytes_needed(train: AnyTrain, deck: Guideway, settings: Settings, points: in
     return 8.0 * (kept + working + state + forces + iterated + summary) + 1.2e8
 
 
-def _refuse_size(train: AnyTrain, deck: Guideway, settings: Settings) -> None:
+def refuse_bytes(
+    field: str, value: Any, needed: float, what: str, remedy: str, source: str = ""
+) -> None:
+    """Refuse what would not fit into memory, before it is made: one limit for all doors.
+
+    Parameters
+    ----------
+    field, value
+        What is too large.
+    needed : float
+        Bytes.
+    what : str
+        What needs them; goes on "would need about ...".
+    remedy, source
+        See `InputError`.
+    """
+    if needed > MEMORY_LIMIT:
+        allowed = f"{what} would need about {needed / 1e9:.3g} GB of memory, too much"
+        allowed += f": the limit is {MEMORY_LIMIT / 1e9:.3g} GB"
+        raise InputError(field, value, allowed, remedy, source)
+
+
+def _refuse_size(
+    train: AnyTrain, deck: Guideway, track: Track, asked: Options, settings: Settings
+) -> None:
     """Refuse what would not fit into memory: a slip in the speed must not stop the machine."""
     needed = bytes_needed(train, deck, settings)
     if needed > MEMORY_LIMIT:
-        raise InputError(
-            "time_step",
-            settings.time_step,
-            f"this run would need about {needed / 1e9:.3g} GB of memory, too much: "
-            f"the limit is {MEMORY_LIMIT / 1e9:.3g} GB",
-            "Use a larger step or speed, fewer cars, a shorter lead_in or tail, "
-            "or a smaller max_iterations",
+        field, value, _, words, remedy = max(
+            _sizes(train, deck, track, asked, settings), key=lambda size: size[2]
         )
+        refuse_bytes(field, value, needed, f"{words}this run", remedy)
+
+
+def _sizes(
+    train: AnyTrain, deck: Guideway, track: Track, asked: Options, settings: Settings
+) -> list[tuple[str, Any, float, str, str]]:
+    """Return what makes a run large.
+
+    Field, value, how many times beyond what is usual, words that explain it, and what to try.
+    """
+    s, axles, cars = settings, len(train.placed_axles), len(train.formation)
+    metres, passes = "Give lengths in m", s.iterations or s.max_iterations
+    found = [
+        ("speed", s.speed, 10.0 / s.speed, "", _IN_METRES),
+        ("deck.length", deck.length, deck.length / 500.0, "", metres),
+        ("lead_in", s.lead_in, s.lead_in / max(1000.0, LEAD_IN_SECONDS * s.speed), "", metres),
+        ("tail", s.tail, s.tail / 10.0, "", "Give it in s"),
+    ]
+    if s.interaction == "iterate":
+        field = "max_iterations" if s.iterations is None else "iterations"
+        found.append((field, passes, passes / 50.0, "", "50 are enough where it converges"))
+    if isinstance(train, AxleTrain):
+        far = f"the last axle is {train.length:g} m behind the first; "
+        found += [
+            ("train.axles", None, train.length / 1000.0, far, metres),
+            ("train.axles", None, axles / 100.0, f"{axles} axles; ", "Use a shorter train"),
+        ]
+    else:
+        each = train.length / cars
+        field, value, words = "train.car_spacing", train.car_spacing, ""
+        if train.car_spacing is None or cars == 1:
+            longest = max(train.vehicles, key=lambda vehicle: vehicle.axles[0].x)
+            field, value = "train.vehicle", longest.name
+            words = f"cars are {each:.4g} m apart or long; "
+        found += [
+            (field, value, each / 50.0, words, metres),
+            ("train.cars", cars, axles / 100.0, "", "Use fewer cars or a larger time step"),
+        ]
+    if asked.time_step is not None:
+        remedy = "Use a larger step or leave it out to have it chosen"
+        found.append(("time_step", s.time_step, 1e-3 / s.time_step, "", remedy))
+    else:
+        notch = min([n.shortest for n in train.notches], default=np.inf)
+        field, what = ("train", "notch") if notch < track.shortest else ("track", "irregularity")
+        words = f"{_shortest(train, track):.3g} m of {what} ask for steps of {s.time_step:.3g} s; "
+        found.append((field, None, 1e-3 / s.time_step, words, metres))
+    return found

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .errors import InputError, brief, integer, number, numbers
+
 __all__ = ["Spectrum", "amplitude_spectrum", "deviation_percent"]
 
 BINS = 60
@@ -25,6 +27,8 @@ class Spectrum:
     unit : str
         Unit of the amplitude.
     """
+
+    __repr__ = brief
 
     frequency: np.ndarray
     amplitude: np.ndarray
@@ -65,8 +69,17 @@ def amplitude_spectrum(
         Lines kept, from the first above zero (60 in Eq. 3).
     unit : str
         Unit of the signal.
+
+    Raises
+    ------
+    InputError
+        No samples, or one that is not finite; a step or a number of lines that is not positive.
     """
-    signal = np.asarray(signal, dtype=float)
+    signal = numbers("signal", signal)
+    if len(signal) == 0:
+        raise InputError("signal", None, "holds no samples")
+    time_step = number("time_step", time_step, above=0.0, unit="s")
+    bins = integer("bins", bins, least=1)
     lines = 2.0 * np.abs(np.fft.rfft(signal - signal.mean()))[1 : bins + 1] / len(signal)
     return Spectrum(np.arange(1, len(lines) + 1) / (len(signal) * time_step), lines, unit)
 

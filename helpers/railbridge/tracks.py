@@ -14,7 +14,7 @@ from typing import Annotated, Protocol
 import numpy as np
 
 from . import errors
-from .errors import InputError, Range, check_fields
+from .errors import InputError, Range, brief, check_fields
 
 __all__ = ["FadeIn", "Harmonic", "Irregularity", "Level", "Notch", "Rails", "Table", "Track"]
 
@@ -113,6 +113,8 @@ class Table:
         m, one for each x; linear between.
     """
 
+    __repr__ = brief
+
     x: Annotated[np.ndarray, Range(unit="m")]
     r: Annotated[np.ndarray, Range(unit="m")]
 
@@ -144,6 +146,8 @@ class Table:
 class Sum:
     """Several irregularities on top of each other."""
 
+    __repr__ = brief
+
     parts: tuple[Irregularity, ...]
 
     @property
@@ -164,6 +168,8 @@ class Sum:
 class Rails:
     """Different irregularities of the left and the right rail."""
 
+    __repr__ = brief
+
     left: Irregularity | list | tuple | None = None
     right: Irregularity | list | tuple | None = None
 
@@ -181,6 +187,8 @@ class Track:
     InputError
         Anything else.
     """
+
+    __repr__ = brief
 
     vertical: Irregularity | list | tuple | Rails | None = None
     lateral: Irregularity | list | tuple | Rails | None = None
@@ -315,6 +323,8 @@ class FadeIn:
     lead_in : float
         m.
     """
+
+    __repr__ = brief
 
     inner: Irregularity
     lead_in: float

@@ -20,7 +20,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from . import errors
-from .errors import InputError, Range, check_fields, frozen
+from .errors import InputError, Range, brief, check_fields, frozen
 from .tracks import FadeIn, Notch, Track
 from .vehicles import Vehicle, WheelResponse
 
@@ -105,6 +105,8 @@ class Condensation:
         several axles.
     """
 
+    __repr__ = brief
+
     offsets: np.ndarray
     matrix: np.ndarray
 
@@ -126,6 +128,8 @@ class Car:
     notches : tuple of (Notch, tuple of int)
         Notches of its wheels, and which of them (from 0) each is on.
     """
+
+    __repr__ = brief
 
     number: int
     centre: float
@@ -265,12 +269,12 @@ class AnyTrain:
 
         Returns
         -------
-        list of ndarray, one for each car, shape (3, 2, samples)
+        list of ndarray, one for each car, shape (places, 2, samples)
             Places as for `Vehicle.sampled_body`.
         """
 
         def zeros(car: Car) -> np.ndarray:
-            return np.zeros((3, 2, passage.samples))
+            return np.zeros((len(car.vehicle.body_places), 2, passage.samples))
 
         return self._on_rigid_deck(Vehicle.sampled_body, zeros, track, passage)
 
@@ -323,7 +327,7 @@ def _rail_input(car: Car, track: Track, passage: Passage, fraction: float) -> np
     met: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
     u = np.empty((len(car.wheels), 2, len(local)))
     for i, wheel in enumerate(car.wheels):
-        behind = front - (wheel.x if passage.excitation == "wheels" else vehicle.length / 2)
+        behind = front - (wheel.x if passage.excitation == "wheels" else vehicle.front)
         x = local - behind
         for j, direction in enumerate(("lateral", "vertical")):
             rail = rails[direction, wheel.side]
@@ -357,6 +361,8 @@ class Train(AnyTrain):
     notches : tuple of Notch
         Wheel irregularities.
     """
+
+    __repr__ = brief
 
     vehicle: Vehicle | tuple[Vehicle, ...]
     cars: Annotated[int, Range(least=1, most=1000, whole=True)] | None = None
@@ -396,10 +402,24 @@ class Train(AnyTrain):
                     raise InputError(f"notches[{i}].wheels", wheel, allowed, "Count from 1")
 
     def _refuse_overlap(self) -> None:
-        for ahead, car in zip(self.formation[:-1], self.formation[1:], strict=True):
-            if car.axles[0].delay <= ahead.axles[-1].delay:
-                remedy = "Use at least the vehicle's length"
-                raise InputError("car_spacing", self.car_spacing, "cars overlap", remedy)
+        pairs = list(zip(self.formation[:-1], self.formation[1:], strict=True))
+        for ahead, car in pairs:
+            if car.axles[0].delay > ahead.axles[-1].delay:
+                continue
+            for vehicle in (ahead.vehicle, car.vehicle):
+                reach = vehicle.axles[0].x - vehicle.axles[-1].x
+                if vehicle.length and reach >= vehicle.length:
+                    allowed = f"its axles reach over {reach:g} m, it is {vehicle.length:g} m long"
+                    remedy = "Correct its length or the places of its axles"
+                    raise InputError("vehicle", vehicle.name, allowed, remedy)
+            # From the last axle of one to the first of the next, whatever the spacing.
+            needed = max(b.vehicle.axles[0].x - a.vehicle.axles[-1].x for a, b in pairs)
+            allowed = f"cars {ahead.number} and {car.number} overlap: the last axle of the one is "
+            allowed += "not ahead of the first of the other"
+            remedy = f"Their wheels need more than {needed:.6g} m between the middles of cars"
+            if self.car_spacing is None:
+                remedy = f"Give car_spacing, more than {needed:.6g} m, or correct their lengths"
+            raise InputError("car_spacing", self.car_spacing, allowed, remedy)
 
     @cached_property
     def vehicles(self) -> tuple[Vehicle, ...]:
@@ -410,10 +430,17 @@ class Train(AnyTrain):
     @cached_property
     def centres(self) -> np.ndarray:
         """Mid-length of each car, m behind the first axle, shape (cars,)."""
-        lengths = np.array([v.length for v in self.vehicles])
-        steps = (lengths[:-1] + lengths[1:]) / 2
         if self.car_spacing:
             steps = np.full(self.cars - 1, self.car_spacing)
+        elif self.cars == 1:
+            steps = np.empty(0)
+        else:
+            for vehicle in self.vehicles:
+                if vehicle.length is None:
+                    remedy = f"Give it, or the length of {vehicle.name}"
+                    raise InputError("car_spacing", None, "is missing", remedy)
+            lengths = np.array([v.length for v in self.vehicles])
+            steps = (lengths[:-1] + lengths[1:]) / 2
         return np.concatenate([[0.0], np.cumsum(steps)]) + self.vehicles[0].axles[0].x
 
     @cached_property
@@ -452,6 +479,8 @@ class AxleTrain(AnyTrain):
     loads : sequence of float
         N of each axle, down positive.
     """
+
+    __repr__ = brief
 
     axles: Annotated[tuple[float, ...], Range(least=0.0, unit="m")]
     loads: Annotated[tuple[float, ...], Range(above=0.0, unit="N")]
@@ -518,7 +547,7 @@ def steady_forces(
     wavelength = waves.pop()
     motion = np.zeros((len(vehicle.contacts), 2), dtype=complex)
     for i, contact in enumerate(vehicle.contacts):
-        x = contact.x if excitation == "wheels" else vehicle.length / 2
+        x = contact.x if excitation == "wheels" else vehicle.front
         for j, direction in enumerate(("lateral", "vertical")):
             rail = track.rail(direction, "right" if contact.y < 0 else "left")
             if hasattr(rail, "wavelength"):

@@ -24,7 +24,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from . import errors
-from .errors import InputError, Range, check_fields, frozen, within
+from .errors import InputError, Range, brief, check_fields, frozen, within
 from .response import LinearSystem, second_order_system
 from .units import G
 
@@ -162,6 +162,8 @@ class Modes:
         The freedom that carries most of the kinetic energy.
     """
 
+    __repr__ = brief
+
     frequencies_hz: np.ndarray
     damping_ratios: np.ndarray
     shapes: np.ndarray
@@ -192,8 +194,9 @@ class Vehicle:
         Car body, bogies.
     springs : tuple of Spring
         Suspension and contacts.
-    length : float
-        m over couplers; the default distance between cars.
+    length : float, optional
+        m over couplers; the default distance between cars. May be left out where trains are given
+        their car spacing.
     static_wheelset_mass : float
         kg of one wheelset, carried straight by the rail. Only its weight counts, not its inertia.
         That matters once waves shake the car above its bounce, where the springs press little:
@@ -207,16 +210,21 @@ class Vehicle:
         holds, or a wheel lifted off the rail at rest.
     """
 
+    __repr__ = brief
+
     name: str
     bodies: tuple[Body, ...]
     springs: tuple[Spring, ...]
-    length: Annotated[float, Range(above=0.0, unit="m")]
+    length: Annotated[float, Range(above=0.0, unit="m")] | None = None
     static_wheelset_mass: Annotated[float, Range(least=0.0, unit="kg")] = 0.0
     labels: tuple[str, ...] = field(init=False, default=())
 
     def __post_init__(self) -> None:
+        errors.text("name", self.name)
         with within(source=f"vehicle {self.name}"):
             check_fields(self)
+            object.__setattr__(self, "bodies", errors.instances("bodies", self.bodies, Body))
+            object.__setattr__(self, "springs", errors.instances("springs", self.springs, Spring))
             _refuse_wrong_ends(self)
             labels = tuple(
                 f"{b.name} {f}" for b in self.bodies for f in FREEDOMS if f in b.freedoms
@@ -301,6 +309,21 @@ class Vehicle:
         return self._standing[0]
 
     @property
+    def front(self) -> float:
+        """The front end, m ahead of mid-length.
+
+        Raises
+        ------
+        InputError
+            A vehicle without a length.
+        """
+        if self.length is None:
+            allowed = f"is the irregularity at the car's front end, and {self.name} has no length"
+            remedy = "Give the vehicle its length, or use 'wheels'"
+            raise InputError("excitation", "car", allowed, remedy)
+        return self.length / 2
+
+    @property
     def weight(self) -> float:
         """Total weight, N, wheelsets included."""
         masses = sum(b.mass for b in self.bodies) + len(self.axles) * self.static_wheelset_mass
@@ -379,28 +402,52 @@ class Vehicle:
         return max(self.bodies, key=lambda b: b.mass)
 
     @property
-    def body_places(self) -> dict[str, float]:
-        """Where the car body's motion is taken, m ahead of mid-length.
+    def car_bodies(self) -> tuple[Body, ...]:
+        """The car body, or every coach of an articulated train, front to back.
 
-        Above its foremost and rearmost springs, and at its centre of mass.
+        Bodies no fewer springs above the rail than the heaviest one, with a fifth of its mass at
+        least: neither bogies nor what hangs in them.
         """
-        on = [s.at[0] for s in self.springs if self.body.name in (s.from_, s.to)]
-        return {"front": max(on), "middle": self.body.position[0], "rear": min(on)}
+        levels, count = {"rail": 0}, 0
+        while len(levels) > count:
+            count = len(levels)
+            for spring in self.springs:
+                for low, high in ((spring.from_, spring.to), (spring.to, spring.from_)):
+                    if levels.get(low, count) + 1 < levels.get(high, count + 1):
+                        levels[high] = levels[low] + 1
+        least = levels[self.body.name]
+        own = [b for b in self.bodies if levels[b.name] >= least and b.mass >= self.body.mass / 5]
+        return tuple(sorted(own, key=lambda b: -b.position[0]))
+
+    @property
+    def body_places(self) -> tuple[tuple[Body, str, float], ...]:
+        """Where the motion of `car_bodies` is taken: the body, a name, m ahead of mid-length.
+
+        ``front`` and ``rear`` above its foremost and rearmost springs, ``middle`` at its centre of
+        mass.
+        """
+        found = []
+        for body in self.car_bodies:
+            on = [s.at[0] for s in self.springs if body.name in (s.from_, s.to)]
+            places = {"front": max(on), "middle": body.position[0], "rear": min(on)}
+            found += [(body, name, x) for name, x in places.items()]
+        return tuple(found)
 
     def sampled_body(self, time_step: float) -> WheelResponse:
-        """Return what gives the car body's accelerations, m/s2, from ``k r + c r'``.
+        """Return what gives the car bodies' accelerations, m/s2, from ``k r + c r'``.
 
-        At the height of the body's centre of mass, at each of `body_places`, lateral and vertical:
-        shape (3, 2, n) from shape (wheels, 2, n).
+        At the height of the bodies' centres of mass, at each of `body_places`, lateral and
+        vertical: shape (places, 2, n) from shape (wheels, 2, n).
 
         Parameters
         ----------
         time_step : float
             s.
         """
-        height = self.body.position[2]
-        points = [(x, 0.0, height) for x in self.body_places.values()]
-        moving = np.vstack([self._point_rows(self.body.name, point) for point in points])
+        places = self.body_places
+        moving = np.vstack(
+            [self._point_rows(b.name, (x, 0.0, b.position[2])) for b, _, x in places]
+        )
         accelerations = np.linalg.solve(self.mass_matrix, moving.T).T
         state = -accelerations @ np.hstack([self.stiffness_matrix, self.damping_matrix])
         respond = replace(self.system, c=state).sampled(time_step)
@@ -409,12 +456,16 @@ class Vehicle:
 
         def body_accelerations(u: np.ndarray) -> np.ndarray:
             inputs = u.reshape(-1, u.shape[-1])
-            return (respond(inputs) + direct @ inputs).reshape(3, 2, -1)
+            return (respond(inputs) + direct @ inputs).reshape(len(places), 2, -1)
 
         return body_accelerations
 
     def transfer(self, frequency_hz: float) -> np.ndarray:
         """Return the steady contact forces for unit harmonic support motion.
+
+        Parameters
+        ----------
+        frequency_hz : float
 
         Returns
         -------
@@ -423,7 +474,7 @@ class Vehicle:
             direction; lateral before vertical.
         """
         rows = self._contact_rows.reshape(-1, len(self.labels))
-        s = 2j * np.pi * frequency_hz
+        s = 2j * np.pi * errors.number("frequency_hz", frequency_hz, unit="Hz")
         dynamic = self.mass_matrix * s**2 + self.damping_matrix * s + self.stiffness_matrix
         impedance = (self.contact_stiffness + self.contact_damping * s).ravel()
         through = rows @ np.linalg.solve(dynamic, rows.T)

@@ -346,3 +346,47 @@ def test_bearings_and_spans_too_close_are_refused():
 def test_damping_of_a_deck_is_checked(damping):
     with pytest.raises(rb.InputError, match=r"^damping"):
         SIMPLE.deck(3, damping)
+
+
+@given(
+    lengths=st.lists(st.integers(50, 600), min_size=1, max_size=6),
+    continuous=st.booleans(),
+)
+@settings(max_examples=60, deadline=None)
+def test_spans_in_decimals_end_where_their_sum_is_written(lengths, continuous):
+    """12.1 + 12.2 + 12.3 is 36.599999999999994 in the computer, and 36.6 for everybody else."""
+    ends = [sum(lengths[:i]) / 10 for i in range(len(lengths) + 1)]
+    bearings = tuple(rb.Bearing(x) for x in ends)
+    spans = tuple(length / 10 for length in lengths)
+    beam = rb.Beam("decimals", spans, 12e3, 1.2e10, bearings=bearings, continuous=continuous)
+    assert beam.length == pytest.approx(ends[-1], rel=1e-15)
+    assert sorted({b.x for b in beam.bearings}) == beam.required_nodes.tolist()
+    assert beam.mesh.edges[-1] == beam.length
+    assert len(beam.mesh.nodes) - len(beam.mesh.edges) == len(beam.joints)
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"bending_stiffness_vertical": 2.05e7, "torsional_stiffness": 2.47e18, "mass": 1e4,
+         "polar_inertia": 7e4, "axial_stiffness": 1.19e20, "rotary_inertia_vertical": 1.29e5,
+         "centroid_height": 1.6},
+        {"bending_stiffness_vertical": 2.9e18, "mass": 1.89e13, "bending_stiffness_lateral": 8.8e11,
+         "torsional_stiffness": 8e10, "polar_inertia": 87.0, "axial_stiffness": 9.9e8,
+         "shear_stiffness_vertical": 1e10},
+    ],
+)  # fmt: skip
+def test_a_deck_whose_modes_are_lost_in_round_off_is_refused(given):
+    """Squares of frequencies came out negative, matrices singular."""
+    beam = rb.Beam("ill", (L,), **given)
+    with pytest.raises(rb.InputError, match="so far from the deck's mass.*round-off spoils"):
+        beam.deck(3, 0.01)
+
+
+def test_a_deck_of_unusual_but_sound_numbers_keeps_its_modes():
+    for factor in (1e-6, 1e6):
+        beam = rb.Beam("odd", (L,), M * factor, EI * factor, EIZ * factor)
+        assert beam.deck(3, 0.01).frequencies_hz == pytest.approx(SIMPLE_FREQUENCIES, rel=1e-6)
+
+
+SIMPLE_FREQUENCIES = rb.Beam("simple", (L,), M, EI, EIZ).deck(3).frequencies_hz

@@ -100,3 +100,17 @@ def test_a_mode_that_the_iteration_misses_is_found_all_the_same(monkeypatch):
     lowest = mesh.lowest
     monkeypatch.setattr(mesh, "lowest", forgetful)
     assert beam.deck(10).frequencies_hz == pytest.approx(expected, rel=1e-9)
+
+
+def test_more_modes_than_fit_into_memory_are_refused():
+    """All modes of a beam of 9 000 coupled freedoms: full matrices of 4 GB."""
+    lines = [rb.Bearing(x, ("x", "y", "z", "roll"), z=-1.0) for x in (0.0, 100.0)]
+    lines += [rb.Bearing(x, ("z",), y=1.0, z=-1.0) for x in np.linspace(0.0, 100.0, 100)[1:-1]]
+    beam = rb.Beam(
+        "many", (100.0,), mass=1e4, bending_stiffness_vertical=1e10, bearings=tuple(lines),
+        bending_stiffness_lateral=1e11, torsional_stiffness=1e10, polar_inertia=1e5,
+        axial_stiffness=1e11, centroid_height=-0.5,
+    )  # fmt: skip
+    assert len(beam.deck(modes=5, damping=0.02).frequencies_hz) == 5
+    with pytest.raises(rb.InputError, match=r"^modes: all modes of \d+ coupled .* limit is 2 GB"):
+        beam.deck(modes=2500, damping=0.02)

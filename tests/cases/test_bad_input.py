@@ -132,7 +132,11 @@ def test_speed(value):
         ("train.cars", 1e6, ["train.cars", "at most 1000"]),
         ("train.cars", 2.5, ["train.cars = 2.5", "whole"]),
         ("train.car_spacing", -22.5, ["train.car_spacing = -22.5", "above 0 m"]),
-        ("train.car_spacing", 5.0, ["train.car_spacing = 5", "overlap", "length"]),
+        (
+            "train.car_spacing",
+            5.0,
+            ["train.car_spacing = 5", "cars 1 and 2 overlap", "more than 18.1 m"],
+        ),
         ("train.vehicle", "xia200", ["xia200", "Did you mean 'xia2000'"]),
         ("train.vehicle", "x" * 5000, ["vehicle", "Known"]),
         ("train.vehicle", "nowhere/my.csv", ["nowhere/my.csv", "no such file"]),
@@ -216,8 +220,12 @@ def test_what_a_deck_may_not_be(change, words):
     [
         ("car_body_mass,50990", "car_body_mass,0", ["car", "mass = 0", "above 0"]),
         ("car_body_mass,50990", "car_body_mass,-1", ["mass = -1"]),
-        ("car_body_mass,50990", "car_body_mass,nan", ["car_body_mass = nan", "finite"]),
-        ("car_body_mass,50990", 'car_body_mass,"50,99"', ["'50,99'", "point as decimal mark"]),
+        ("car_body_mass,50990", "car_body_mass,nan", ["car_body_mass = .nan.", "finite"]),
+        (
+            "car_body_mass,50990",
+            'car_body_mass,"50,99"',
+            ["'50,99'", "has a decimal comma", "point as decimal mark"],
+        ),
         ("car_body_mass,50990,kg", "car_body_mass,50990,kN", ["unit", "kN", "kg, t"]),
         ("car_body_mass,50990,kg", "car_body_mass,50990,Kg", ["unit", "Kg"]),
         ("car_body_mass", "car_bodymass", ["row car_bodymass", "Did you mean 'car_body_mass'"]),
@@ -339,7 +347,8 @@ def test_non_convergence_is_an_error_with_what_to_try(monkeypatch):
     monkeypatch.setattr(crossing, "prepare", prepare)
     deck = rb.deck_from_table("light", {**OWN_DECK, "mass": 1e3})
     with pytest.raises(
-        rb.NotConvergedError, match=r"^max_iterations = 3: .*relaxation = 0.5"
+        rb.NotConvergedError,
+        match=r"^max_iterations = 3: .* interaction = 'direct', relaxation = 0.5 or 'aitken', or",
     ) as error:
         rb.cross(
             rb.Train(rb.vehicle("xia2000_planar")),
@@ -349,6 +358,24 @@ def test_non_convergence_is_an_error_with_what_to_try(monkeypatch):
             max_iterations=3,
         )
     assert error.value.run.iterations == 3
+
+
+@pytest.mark.parametrize(
+    ("run", "words"),
+    [
+        ({}, "Try run.interaction = 'direct', run.relaxation = 0.5"),
+        ({"feedback": "vertical"}, "Try run.interaction = 'direct' with run.feedback = 'all', "),
+        ({"loads": "bogies"}, "Try run.relaxation = 0.5 or 'aitken', more run.max_iterations, or "
+         "run.loads = 'wheels' with run.interaction = 'direct'"),
+    ],
+)  # fmt: skip
+def test_the_direct_solution_is_named_first_where_it_can_be_had(monkeypatch, run, words):
+    monkeypatch.setattr(crossing, "prepare", prepare)
+    options = {"speed": 30.0, "time_step": 2e-3, "max_iterations": 3, "lead_in": 0.0, **run}
+    tables = {"deck": {**OWN_DECK, "mass": 1e3}, "train": {"vehicle": "xia2000_planar"}}
+    with pytest.raises(rb.NotConvergedError) as error:
+        rb.Case({**tables, "run": options}).run()
+    assert words in str(error.value)
 
 
 # Hostile from here on: whatever comes, InputError or a sound case.

@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -200,7 +201,7 @@ def test_lists_and_schema(capsys):
     ("content", "words"),
     [
         (b"not TOML [", "not a valid TOML file"),
-        (b"\x7fELF\x00\xff\xfe", "not a valid TOML file"),
+        (b"\x7fELF\x00\xff\xfe", "case.toml: is not text"),
         (b"", "deck: is missing"),
         (b"[deck]\n[train]\n", "run: is missing"),
         (b"deck = 3\ntrain = 4\nrun = 5", "deck = 3: must be a table"),
@@ -240,7 +241,7 @@ def test_what_is_no_case_file_is_refused(here, capsys, content, words):
         ('"harmonic"', '"harmonc"', "track.vertical.kind = 'harmonc'"),
         ("points = [6.0]", "points = [6.0, 60.0]", "output.points[2] = 60.0"),
         ("time_step = 4e-3", "time_step = 4e-9", "GB"),
-        ("speed = 40.0", "speed = 1e-6", "run.time_step"),
+        ("speed = 40.0", "speed = 1e-6", "run.speed = 1e-06: this run"),
     ],
 )
 def test_a_bad_case_is_refused_with_the_path_of_the_key(here, capsys, before, after, words):
@@ -315,7 +316,14 @@ def test_what_stops_in_the_middle_leaves_nothing(here, capsys, monkeypatch, erro
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals differ")
-def test_ctrl_c_stops_the_command_with_130(here):
+@pytest.mark.parametrize(
+    ("number", "code", "words"),
+    [
+        (signal.SIGINT, 130, "interrupted; nothing was written"),
+        (signal.SIGTERM, 143, "stopped; nothing was written"),
+    ],
+)
+def test_who_is_stopped_leaves_nothing(here, number, code, words):
     long = [
         "--set",
         "train.cars=40",
@@ -329,7 +337,7 @@ def test_ctrl_c_stops_the_command_with_130(here):
     def listen():
         # A shell that starts the tests in the background has SIGINT ignored, and children inherit
         # that.
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        signal.signal(number, signal.SIG_DFL)
 
     with subprocess.Popen(
         program, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=listen
@@ -341,11 +349,72 @@ def test_ctrl_c_stops_the_command_with_130(here):
         ):
             time.sleep(0.05)
         time.sleep(0.3)
-        process.send_signal(signal.SIGINT)
+        process.send_signal(number)
         _, err = process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert "Traceback" not in err
+    assert process.returncode == code
+    assert err.splitlines()[-1] == f"railbridge: {words}" and "Traceback" not in err
     assert os.listdir() == ["case.toml"]
+
+
+def shell(line):
+    """Code, output and complaints of the command in a shell; its streams are what matters here."""
+    command = f"{shlex.quote(sys.executable)} -m railbridge {line}"
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell of Unix")
+@pytest.mark.parametrize("streams", ["2>&-", ">&- 2>&-", "2>/dev/full", ">/dev/full"])
+def test_results_do_not_need_somebody_who_listens(here, streams):
+    code, out, _ = shell(f"run case.toml --out r --set run.lead_in=5 {streams}")
+    assert (code, out) == (0, "")
+    assert set(os.listdir("r")) == FILES
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell of Unix")
+def test_output_that_cannot_be_written_is_told_once(here):
+    code, _, err = shell("list >/dev/full")
+    assert (code, err) == (1, "railbridge: the output: No space left on device\n")
+    assert shell("check case.toml >&-")[0] == 0
+    code, out, err = shell("schema | head -n 1")
+    assert (out, err) == ("{\n", "")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="limits differ")
+def test_a_starter_that_finds_no_room_leaves_nothing(here):
+    import resource  # Unix only
+
+    def full():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+    done = subprocess.run(
+        [sys.executable, "-B", "-m", "railbridge", "new", "mine.toml"],
+        capture_output=True, text=True, preexec_fn=full,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "mine.toml': cannot be written (File too large)" in done.stderr
+    assert os.listdir() == ["case.toml"]
+    assert cli.main(["new", "mine.toml"]) == 0
+
+
+@pytest.mark.parametrize("module", ["__init__", "cases/command"])
+def test_ctrl_c_while_packages_are_loaded_is_one_line(tmp_path, module):
+    """The program that is installed stands outside the package, which loads most of them."""
+    root = Path(cli.__file__).parents[2]
+    script = tomllib.loads((root.parent / "pyproject.toml").read_text(encoding="utf-8"))
+    entry, _, function = script["project"]["scripts"]["railbridge"].partition(":")
+    assert root.joinpath(f"{entry}.py").is_file()
+    for name in ("__init__", "cases/__init__", "cases/command"):
+        path = tmp_path / "railbridge" / f"{name}.py"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("raise KeyboardInterrupt\n" if name == module else "")
+    done = subprocess.run(
+        [sys.executable, "-c", f"import sys\nfrom {entry} import {function}\nsys.exit(main())"],
+        capture_output=True, text=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(root)])},
+    )  # fmt: skip
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == "railbridge: interrupted; nothing was written\n"
 
 
 def test_progress_is_one_line_in_a_terminal(monkeypatch, capsys):
@@ -373,6 +442,59 @@ def test_a_warning_is_one_line(here, capsys):
     assert code == 0
     assert len(err) == 1
     assert err[0].startswith("railbridge: warning: run.lead_in")
+
+
+SOFT = "deck.bending_stiffness_vertical gives a first vertical frequency of 0.273 Hz, bridges of 12"
+
+
+def test_a_doubt_is_one_warning_before_it_is_computed_and_stands_in_the_summary(here, capsys):
+    changed("5e9", "5e6")
+    code, _, err = command(capsys, "run", "case.toml", "--out", "r", "-q")
+    assert code == 0 and sum(SOFT in line for line in err) == 1
+    assert err[0].startswith(f"railbridge: warning: {SOFT}") and "given in kN m2" in err[0]
+    assert "pulls on the rail" in err[1], "what follows in the result is said after it"
+    remarks = json.loads(Path("r/summary.json").read_text(encoding="utf-8"))["remarks"]
+    assert f"railbridge: warning: {remarks[0]}" == err[0]
+    both = ["--set", "run.lead_in=5.0"]
+    code, _, err = command(capsys, "run", "case.toml", "--out", "r", "-q", *both)
+    named = [line.split()[2] for line in err[:2]]
+    assert named == ["deck.bending_stiffness_vertical", "run.lead_in"]
+
+
+def test_a_doubt_is_said_where_nothing_converges(here, capsys):
+    changed("5e9", "5e6")
+    code, _, err = command(
+        capsys, "run", "case.toml", "--out", "r", "--set", "run.max_iterations=1"
+    )
+    assert code == 3
+    assert err[0].startswith(f"railbridge: warning: {SOFT}") and "not converged" in err[-1]
+    with pytest.warns(rb.InputWarning, match="kN m2"), pytest.raises(rb.NotConvergedError):
+        rb.case("case.toml", {"run.max_iterations": 1}).run()
+
+
+def test_check_says_doubts_too(here, capsys):
+    changed("5e9", "5e6")
+    code, out, err = command(capsys, "check", "case.toml")
+    assert (code, len(out), len(err)) == (0, 1, 1)
+    assert "can be run" in out[0] and err[0].startswith(f"railbridge: warning: {SOFT}")
+
+
+def test_strict_refuses_doubts_and_computes_nothing(here, capsys, monkeypatch):
+    changed("5e9", "5e6")
+    monkeypatch.setattr(rb.Case, "compute", lambda *_: pytest.fail("computed"))
+    for arguments in (("run", "case.toml", "--out", "deep/r"), ("check", "case.toml")):
+        line = refused(capsys, *arguments, "--strict")
+        assert line.startswith(f"railbridge: {SOFT}")
+    assert os.listdir() == ["case.toml"]
+    two = ["--set", "run.speed=118"]
+    code, out, err = command(capsys, "check", "case.toml", "--strict", *two)
+    assert (code, out, len(err)) == (2, [], 2) and "424.8 km/h" in err[1]
+
+
+def test_strict_lets_pass_what_is_not_doubted(here, capsys):
+    code, out, err = command(capsys, "check", "case.toml", "--strict")
+    assert (code, len(out), err) == (0, 1, [])
+    assert command(capsys, "run", "case.toml", "--out", "r", "-q", "--strict") == (0, [], [])
 
 
 def test_files_of_a_case_are_found_beside_it(here, capsys, monkeypatch):
@@ -408,6 +530,82 @@ SECTION = {
 }  # fmt: skip
 NOTCH = {"wheels": [[1, 1]], "circumference": 2.7, "offset": 1.0, "depth": 1e-3, "length": 0.5}
 HARMONIC = {"kind": "harmonic", "amplitude": 1e-3, "wavelength": 10.0}
+
+
+def test_the_headline_names_the_point_that_moves_most(here, capsys):
+    given = ("run", "case.toml", "--out", "out", "--set", "output.points=[1.0, 6.0, 11.0]")
+    code, _, err = command(capsys, *given)
+    points = json.loads(Path("out/summary.json").read_text())["points"]
+    worst = min(points, key=lambda p: p["displacement_z"]["min"]["value"])
+    value = worst["displacement_z"]["min"]["value"] * 1e3
+    assert code == 0 and worst["x"] == 6.0
+    assert f"displacement is largest at x = 6 m, {value:.4g} mm" in err[-1]
+
+
+def test_the_headline_of_a_point_at_the_support_says_so(here, capsys):
+    given = ("run", "case.toml", "--out", "out", "--set", "output.points=[0.0]")
+    assert ", displacement at x = 0 m is 0 mm" in command(capsys, *given)[2][-1]
+
+
+def test_paths_of_changes_are_relative_to_the_case_like_those_in_it(here, capsys, monkeypatch):
+    planar = shelf.data_file("vehicles", "xia2000_planar").read_text(encoding="utf-8")
+    (here / "cases" / "cars").mkdir(parents=True)
+    (here / "cases" / "cars" / "mine.toml").write_text(planar, encoding="utf-8")
+    (here / "cases" / "case.toml").write_text(CASE, encoding="utf-8")
+    case, change = "cases/case.toml", "train.vehicle=cars/mine.toml"
+    code, out, _ = command(capsys, "check", case, "--set", change)
+    assert code == 0 and "can be run" in out[0]
+    found = rb.case(case, {"train.vehicle": "cars/mine.toml"})
+    assert found.get("train.vehicle") == str(Path("cases/cars/mine.toml"))
+    line = refused(capsys, "check", case, "--set", "train.vehicle=cases/cars/mine.toml")
+    assert "no such file" in line
+    absolute = f"train.vehicle={here / 'cases' / 'cars' / 'mine.toml'}"
+    assert command(capsys, "check", case, "--set", absolute)[0] == 0
+    # A shipped case stands nowhere that the user knows: there it is the folder one is in.
+    monkeypatch.chdir(here / "cases")
+    assert command(capsys, "check", "paper", "--set", "train.vehicle=cars/mine.toml")[0] == 0
+
+
+HOSTILE = "\\u001b[31mred\\u0007\\u009b2J\\u202e"
+"""In TOML: a colour, a bell, clearing of the screen and a change of direction."""
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        CASE.replace("[train]", f'"{HOSTILE}" = 1\n[train]'),
+        CASE.replace('"xia2000_planar"', f'"{HOSTILE}"'),
+        CASE.replace('"xia2000_planar"', f'"{HOSTILE}.csv"'),
+        CASE.replace("tail = 0.1", f'tail = "{HOSTILE}"'),
+        CASE.replace('vehicle = "xia2000_planar"', f'vehicle = "xia2000"\ntrack = "{HOSTILE}"'),
+        CASE.replace('"harmonic"', f'"{HOSTILE}"'),
+    ],
+)
+def test_escapes_in_names_are_shown_not_obeyed(here, capsys, content):
+    Path("case.toml").write_text(content, encoding="utf-8")
+    line = refused(capsys, "check", "case.toml")
+    # In a key as JSON writes it, in a value as Python does.
+    assert line.isprintable() and re.search(r"\\(x1b|u001b)\[31m", line)
+
+
+def test_escapes_in_names_of_files_are_shown_not_obeyed(here, capsys):
+    name = "a\x1b[2Jb.toml"
+    Path("case.toml").rename(name)
+    code, out, err = command(capsys, "check", name)
+    assert code == 0 and out[0].startswith("a\\x1b[2Jb.toml: can be run") and not err
+    code, out, err = command(capsys, "run", name, "--out", "o\x07")
+    assert code == 0 and err[-1].endswith("written to o\\x07") and err[-1].isprintable()
+    with pytest.raises(SystemExit):
+        cli.main(["check", name, "--\x1b[31m"])
+    assert "\x1b" not in capsys.readouterr().err
+
+
+def test_a_terminal_that_lacks_a_letter_is_told_all_the_same(here):
+    Path("case.toml").rename("brücke \U0001f600.toml")
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    given = [sys.executable, "-m", "railbridge", "check", "brücke \U0001f600.toml"]
+    done = subprocess.run(given, capture_output=True, env=environment)
+    assert done.returncode == 0 and done.stdout.startswith(b"br\\xfccke \\U0001f600.toml: can be")
 
 
 def test_schema_is_a_schema_and_every_shipped_case_fits_it():

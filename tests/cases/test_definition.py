@@ -178,6 +178,9 @@ def test_files(tmp_path):
         ("rnu", {}, "rnu: unknown key. Did you mean 'run'"),
         ("deck.mode", 5, "deck.mode"),
         ("train.spacing", 5.0, "train.spacing: unknown key. Did you mean 'car_spacing'"),
+        ("deck.", 5.0, 'deck."" = 5.0: cannot stand beside deck.file'),
+        ("run.", 5.0, 'run."": unknown key'),
+        ("run.a b", 5.0, 'run."a b": unknown key'),
         ("track.vertical.wave", 1.0, "track.vertical.wave: unknown key"),
         ("track.vertikal", {"kind": "none"}, "Did you mean 'vertical'"),
         ("output.point", [1.0], "Did you mean 'points'"),
@@ -227,3 +230,52 @@ def test_a_vehicle_file_of_the_same_name_elsewhere_is_another_vehicle(tmp_path, 
         monkeypatch.chdir(place)
         changes = {"train.vehicle": "own.toml", "train.cars": 1, "run.loads": "wheels"}
         assert rb.case("paper").replace(changes).train.vehicle.length == length
+
+
+@pytest.mark.parametrize(
+    "deck",
+    [
+        {"spans": [12.1, 12.2, 12.3]},
+        {
+            "spans": [12.1, 12.2, 12.3],
+            "bearing": [{"x": x, "fixed": "y z"} for x in (0.0, 12.1, 24.3, 36.6)],
+        },
+        {"spans": [12.1, 12.2, 12.3], "continuous": False},
+    ],
+)
+def test_spans_that_no_computer_adds_up_exactly_run_to_their_end(deck):
+    own = {"bending_stiffness_vertical": 1.2e10, "mass": 12e3, "damping": {"modal": 0.02}}
+    tables = {
+        "deck": {**own, **deck},
+        "train": {"axles": [0.0, 2.5], "loads": [150e3, 150e3]},
+        "run": {"speed": 40.0, "interaction": "rigid"},
+        "output": {"points": [0.0, 36.6]},
+    }
+    found = rb.Case(tables)
+    summary = found.summary()
+    assert found.points[-1] == found.deck.length
+    assert [r["x"] for r in summary["reactions"]] == pytest.approx([0.0, 12.1, 24.3, 36.6])
+    stations = summary["envelope"]["displacement_z"]["stations"]
+    assert stations["x"][-1] == pytest.approx(36.6) and stations["max"][-1] == pytest.approx(0.0)
+
+
+def test_wheels_and_tracks_at_the_very_edge_of_a_deck_are_on_it():
+    """1.1 + 2.2 is more than 3.3 in the computer."""
+    edge = 1.1 + 2.2
+    tables = {"width": 6.6, "tracks": {"edge": edge}}
+    assert edge > 3.3
+    for track in ("edge", edge):
+        found = changed(deck=tables, train={"vehicle": "sprung_mass", "track": track})
+        assert found.settings.track_offset == pytest.approx(3.3)
+    with pytest.raises(rb.InputError, match=r"deck\.tracks\.edge = 3\.30001.*at most 3\.3 m"):
+        changed(deck={"width": 6.6, "tracks": {"edge": 3.30001}})
+
+
+def test_many_places_count_for_the_size_of_a_run():
+    """A run that just fits does not with the histories of a hundred places."""
+    fixed = 1.2e8
+    needed = rb.settings.bytes_needed(PAPER.train, PAPER.deck, PAPER.settings)
+    step = PAPER.settings.time_step * (needed - fixed) / (1.8e9 - fixed)
+    fits = PAPER.replace({"run.time_step": step})
+    with pytest.raises(rb.InputError, match=r"^output\.points = 100: a run with so many places"):
+        fits.replace({"output.points": [0.36 * i for i in range(100)]})

@@ -7,6 +7,9 @@ import pytest
 import railbridge as rb
 from railbridge.beams.bearings import Bearing
 from railbridge.cases import objects as decks
+from railbridge.cases import shelf
+from railbridge.errors import InputError
+from railbridge.exchange.tables import read_columns
 
 SECTION = {
     "youngs_modulus": 35e9, "poisson_ratio": 0.2, "density": 2500.0, "area": 4.8,
@@ -182,3 +185,78 @@ def test_rotary_inertia_needs_a_section_or_numbers():
     ) as error:
         decks.deck_from_table("b", table)
     assert "rotary_inertia_vertical" in error.value.remedy
+
+
+WITHOUT = ("symbol", "source", "note")
+
+
+def car_table(
+    tmp_path, separator=",", decimal=".", columns=("name", "value", "unit"), drop=(), **add
+):
+    """Write the paper's car in another way, and return the path."""
+    table = read_columns(shelf.data_file("vehicles", "xia2000"), ["name", "value", "unit"], WITHOUT)
+    rows = zip(*(table.cells[c] for c in ("name", "value", "unit")), strict=True)
+    rows = [*(row for row in rows if row[0] not in drop), *((k, *v) for k, v in add.items())]
+    rows = [dict(zip(("name", "value", "unit"), row, strict=True)) for row in rows]
+    lines = [separator.join(row[c].replace(".", decimal) for c in columns) for row in rows]
+    path = tmp_path / "mine.csv"
+    path.write_text("\n".join([separator.join(columns), *lines]), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_a_car_s_table_needs_names_values_and_units_only(tmp_path, separator):
+    usual = rb.vehicle("xia2000")
+    decimal = "." if separator == "," else ","
+    for columns in (("name", "value", "unit"), ("unit", "value", "name")):
+        found = rb.vehicle(car_table(tmp_path, separator, decimal, columns))
+        assert found.bodies == usual.bodies and found.springs == usual.springs
+        assert found.length == usual.length == 22.5
+
+
+@pytest.mark.parametrize("name", ["wheelset_mass", "static_wheelset_mass"])
+def test_wheelsets_of_a_car_s_table_weigh_on_the_rail(tmp_path, name):
+    usual = rb.vehicle("xia2000")
+    found = rb.vehicle(car_table(tmp_path, **{name: ("1.78", "t")}))
+    assert found.static_wheelset_mass == 1780.0
+    assert found.weight == pytest.approx(usual.weight + 4 * 1780.0 * 9.81)
+    more = [
+        b.static_load - a.static_load for a, b in zip(usual.contacts, found.contacts, strict=True)
+    ]
+    assert more == pytest.approx([1780.0 * 9.81 / 2] * 8)
+    assert found.modes().frequencies_hz == pytest.approx(usual.modes().frequencies_hz)
+    both = car_table(tmp_path, wheelset_mass=("1", "t"), static_wheelset_mass=("1", "t"))
+    with pytest.raises(InputError, match="row static_wheelset_mass: appears more than once"):
+        rb.vehicle(both)
+    with pytest.raises(
+        InputError, match="wheelset_mass = -1.0: must be a finite number at least 0"
+    ):
+        rb.vehicle(car_table(tmp_path, **{name: ("-1", "kg")}))
+
+
+def test_a_car_s_length_may_be_left_out(tmp_path):
+    path = car_table(tmp_path, drop=("length",))
+    assert rb.vehicle(path).length is None
+    tables = {**rb.case("paper").content, "train": {"vehicle": str(path), "cars": 2}}
+    with pytest.raises(InputError, match=r"train.car_spacing: is missing. Give it, or the length"):
+        rb.Case(tables)
+    found = rb.Case({**tables, "train": {**tables["train"], "car_spacing": 22.5}})
+    assert found.train.centres.tolist() == rb.Train(rb.vehicle("xia2000"), 2).centres.tolist()
+    text = shelf.data_file("vehicles", "sprung_mass").read_text(encoding="utf-8")
+    (tmp_path / "mine.toml").write_text(text.replace("length = 10.0", ""), encoding="utf-8")
+    assert rb.vehicle(tmp_path / "mine.toml").length is None
+
+
+def test_a_car_in_other_units_is_the_same_car(tmp_path):
+    usual = rb.vehicle("xia2000")
+    pound = 4.4482216152605
+    other = {
+        "bogie_mass": (4360 / (pound / 0.0254), "lbf s2/in"),
+        "car_body_mass": (50.99e-3, "kN s2/mm"),
+        "primary_vertical_stiffness": (2976 / (pound / 0.0254), "kip/in"),
+        "secondary_vertical_damping": (30.0, "N s/mm"),
+    }
+    written = {name: (repr(value), unit) for name, (value, unit) in other.items()}
+    found = rb.vehicle(car_table(tmp_path, drop=tuple(other), **written))
+    assert found.modes().frequencies_hz == pytest.approx(usual.modes().frequencies_hz, rel=1e-12)
+    assert found.damping_matrix == pytest.approx(usual.damping_matrix)

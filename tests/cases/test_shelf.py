@@ -28,20 +28,25 @@ HEADER = "symbol,name,value,unit,source,note\n"
         "name,value,unit,symbol,note,source\nmass,2,t,m,,\n\n,,,,,\n",
         HEADER + 'm,"mass",2e0,t,"a, b",\n"","",,,,\n',
         HEADER + 'm,mass,2,t,"two\n# lines",\n',
+        "name,value,unit\nmass,2,t\n",
+        "name;value;unit\nmass;2,0;t\n",
+        HEADER.replace(",", ";") + 'm;mass;2000,0;kg;"a; b";\n',
+        HEADER + "m,load,2,t,,\n",
         "# mine\n" + HEADER + "m,mass,2,t,,\n# m,mass,3,t,,\n",
     ],
 )
 def test_good_parameter_tables(tmp_path, text):
     path = tmp_path / "p.csv"
     path.write_bytes(text.encode())
-    assert shelf.read_parameters(path, {"mass": "kg"}) == {"mass": 2000.0}
+    expected = {"mass": "kg", "width": "m"}
+    assert shelf.read_parameters(path, expected, ["width"], {"load": "mass"}) == {"mass": 2000.0}
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "column symbol: is missing"),
-        ("\n\n", "column symbol: is missing"),
+        ("", "column name: is missing"),
+        ("\n\n", "column name: is missing"),
         (HEADER, "row mass: is missing"),
         ("symbol,name,value,source,note\nm,mass,2,,\n", "column unit: is missing"),
         ("symbol,name,value,value,unit,source,note\n", "column value: appears more than once"),
@@ -55,23 +60,27 @@ def test_good_parameter_tables(tmp_path, text):
         (HEADER + "m,mass,2,,,\n", r"line 2: mass \(unit\) = '': must be one of kg, t"),
         (
             HEADER + "# m,mass,2,t,,\nm,mass,nan,t,,\n",
-            "line 3: mass = nan: must be a finite number",
+            "line 3: mass = .nan.: must be a finite number",
         ),
-        (HEADER + "m,mass,inf,t,,\n", "mass = inf: must be a finite number"),
-        (HEADER + "m,mass,1e400,t,,\n", "mass = inf: must be a finite number"),
-        (HEADER + "m,mass,two,t,,\n", "mass = 'two': must be a number"),
-        (HEADER + "m,mass,1.000.0,t,,\n", "mass = '1.000.0': must be a number"),
+        (HEADER + "m,mass,inf,t,,\n", "mass = .inf.: must be a finite number"),
+        (HEADER + "m,mass,1e400,t,,\n", "mass = .1e400.: must be a finite number"),
+        (HEADER + "m,mass,two,t,,\n", "mass = 'two': must be a finite number"),
+        (HEADER + "m,mass,1.000.0,t,,\n", "mass = '1.000.0': may have a mark for thousands"),
         (
             HEADER + 'm,mass,"2,5",t,,\n',
-            "mass = '2,5': must be a number. Use a point as decimal mark",
+            "mass = '2,5': has a decimal comma. Use a point as decimal mark",
         ),
         (
             HEADER + "m,mass,2,5,t,,\n",
-            "line 2 = 'm,mass,2,5,t,,': must have 6 cells, it has 7. Put cells",
+            "line 2 = 'm,mass,2,5,t,,': must have 6 cells, it has 7. Use a point as decimal mark",
         ),
         (HEADER + "m,mass,2,t\n", "line 2 = .*must have 6 cells, it has 4"),
-        (HEADER.replace(",", ";") + "m;mass;2;t;;\n", "unknown column. Separate cells by commas"),
-        (HEADER + "m,mass,,t,,\n", "mass = '': must be a number"),
+        (HEADER + 'm,mass,"50,990",kg,,\n', "mass = '50,990': may have a mark for thousands"),
+        (
+            HEADER.replace(",", " ") + "m mass 2 t\n",
+            "has none of the columns of such a table. Separate cells by commas",
+        ),
+        (HEADER + "m,mass,,t,,\n", "mass = '': is blank, must be a number"),
     ],
 )
 def test_bad_parameter_tables(tmp_path, text, message):

@@ -3,11 +3,14 @@
 import dataclasses
 import json
 import math
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import railbridge as rb
+from railbridge.cases import summary
 from railbridge.cases.summary import QUANTITIES, histories, summarize, to_json
 from railbridge.results import ENVELOPE
 from railbridge.settings import bytes_needed
@@ -225,6 +228,36 @@ def test_the_middle_of_a_car_body_moves_as_the_mean_of_its_ends(run):
     assert np.abs(middle[1]).max() > 0.5
 
 
+def test_every_coach_of_an_articulated_train_is_told():
+    """Newton for all of them: masses times accelerations are what the wheels exert."""
+    coaches = [rb.Body(f"c{i}", 2e4 - 5e3 * i, (0, 1, 0), (8.0 - 8.0 * i, 0, 1), ("z", "pitch"))
+               for i in range(3)]  # fmt: skip
+    coaches = tuple(replace(c, inertia=(0.0, 2e5, 0.0)) for c in coaches)
+    springs = [
+        rb.Spring(c.name, "rail", (c.position[0] + x, 0.0, 0.0), (0.0, 1e6), (0.0, 2e4))
+        for c in coaches
+        for x in (3.0, -3.0)
+    ]
+    springs.append(rb.Spring("c0", "c1", (4.0, 0.0, 1.0), (0.0, 1e6), (0.0, 1e4)))
+    long = rb.Vehicle("long", coaches, tuple(springs), 24.0)
+    train = rb.Train((long, rb.vehicle("sprung_mass")))
+    track = rb.Track(vertical=rb.Harmonic(1e-3, wavelength=10.0))
+    options = {"speed": 30.0, "time_step": 2e-3, "tolerance": 1e-6, "lead_in": 0.0}
+    run = rb.cross(train, rb.deck("viaduct36"), track, **options)
+    found = run.body_accelerations
+    assert found.shape[:3] == (2, 9, 2) and np.isnan(found[1, 3:]).all()
+    assert np.isfinite(found[0]).all()
+    inertia = sum(c.mass * found[0, 3 * i + 1, 1] for i, c in enumerate(coaches))
+    exerted = -(run.wheel_forces[:6, 1].sum(axis=0) + sum(c.mass for c in coaches) * 9.81)
+    assert np.allclose(inertia, exerted, atol=1e-6 * np.abs(exerted).max())
+    told = summarize(run, [18.0])["car_body"]["acceleration_z"]
+    worst = np.unravel_index(np.nanargmax(found[:, :, 1]), (2, 9, len(run.time)))
+    assert told["max"]["value"] == np.nanmax(found[:, :, 1])
+    assert told["max"]["car"] == worst[0] + 1
+    assert told["max"]["place"] == ("front", "middle", "rear")[worst[1] % 3]
+    assert told["max"].get("body") == (f"c{worst[1] // 3}" if worst[0] == 0 else None)
+
+
 def test_histories_start_with_t_and_name_their_units(run):
     tables = {t.name: t for t in histories(run, [9.0, 18.0])}
     assert list(tables) == ["points", "wheels", "reactions", "iterations"]
@@ -282,3 +315,25 @@ def test_the_papers_case_in_numbers():
         865e3, rel=0.02
     )
     assert point["displacement_z"]["static"] == pytest.approx(-6.534e-3, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("statics", "extremes", "side", "factor"),
+    [
+        # Both sides alike but for round-off, as for shear at mid-span: the larger dynamic value.
+        ((-100.000001, 100.0), (-103.0, 110.0), 100.0, 1.10),
+        ((-100.0, 100.000001), (-115.0, 110.0), -100.0, 1.15),
+        # Otherwise the side of the larger static value, whatever the dynamic ones.
+        ((-50.0, 100.0), (-200.0, 90.0), 100.0, 0.9),
+        ((-100.0, 50.0), (-90.0, 200.0), -100.0, 0.9),
+        ((-99.9, 100.0), (-200.0, 90.0), 100.0, 0.9),
+    ],
+)
+def test_the_dynamic_factor_is_that_of_the_side_with_the_larger_static_value(
+    statics, extremes, side, factor
+):
+    run = SimpleNamespace(time=np.arange(4.0), static_extremes=lambda line: statics)
+    history = {"shear_vertical": np.array([0.0, extremes[0], extremes[1], 0.0])}
+    entry = summary._entries(run, history, {"shear_vertical": object()})["shear_vertical"]
+    assert entry["static"] == pytest.approx(side, rel=1e-6)
+    assert entry["dynamic_factor"] == pytest.approx(factor, rel=1e-6)

@@ -4,6 +4,8 @@ import dataclasses
 import json
 import shutil
 import tomllib
+import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -78,6 +80,38 @@ def test_a_deck_that_is_written_and_read_back_answers_alike(name, units, tmp_pat
     assert np.max(np.abs(theirs.wheel_forces - ours.wheel_forces)) < 1e-9 * np.max(np.abs(dynamic))
 
 
+@pytest.mark.parametrize(("units", "per_metre"), [(("m", "kg"), 1.0), (("mm", "t"), 1e3)])
+def test_written_rotations_are_those_of_the_right_hand(units, per_metre, tmp_path):
+    """About z the slope of uy, about y minus the slope of uz, and the twist as it is.
+
+    Our own reader does not ask for them; other programs do.
+    """
+    deck = rb.deck("viaduct36")
+    exchange.export_modes(deck, tmp_path, units)
+    rows = np.genfromtxt(
+        tmp_path / "modes.csv",
+        delimiter=",",
+        names=True,
+        dtype=None,
+        encoding="utf-8",
+        skip_header=1,
+    )
+    nodes = np.genfromtxt(tmp_path / "nodes.csv", delimiter=",", names=True, skip_header=2)
+    x = nodes["x"] / per_metre
+    assert x[[0, -1]] == pytest.approx([0.0, 36.0])
+    for c, slopes, sign in (("uy", "rz", 1.0), ("uz", "ry", -1.0)):
+        for mode in np.unique(rows["mode"]):
+            own = rows[rows["mode"] == mode]
+            slope = np.gradient(own[c] / per_metre, x)[2:-2]
+            if np.abs(own[c]).max() > 1e-3 * np.abs(rows[c]).max():
+                error = np.abs(sign * own[slopes][2:-2] - slope).max()
+                assert error < 0.05 * np.abs(slope).max(), (slopes, mode)
+    # Of a mode that twists only: as the deck's own shape, in rad over the root of the unit of mass.
+    mode = deck.mode_names.index("torsion 1")
+    twist = deck.shapes(x)[:, mode, 2] * np.sqrt(1e3 if units[1] == "t" else 1.0) / per_metre
+    assert rows["rx"][rows["mode"] == mode + 1] == pytest.approx(twist, abs=1e-12)
+
+
 def test_written_tables_stand_without_the_deck_file(tmp_path):
     deck = rb.deck("viaduct36")
     exchange.export_modes(deck, tmp_path)
@@ -90,6 +124,19 @@ def test_written_tables_stand_without_the_deck_file(tmp_path):
     model = exchange.read_modes(tmp_path / "nodes.csv", tmp_path / "modes.csv")
     bending, twist = differ(exchange.deck_from_modes(model, model.nodes.line()), deck)[[1, 2]]
     assert bending < 1e-12 and twist < 1e-2
+
+
+NAMES = [
+    "bending, first", "two\nlines", "two\r\nlines", "return\ronly", 'said "one"', "#1", "a;b",
+    "\U0001f600", "\x1b[31mred\x7f", "a\u2028b", "-" * 300, "back\\slash",
+]  # fmt: skip
+
+
+def test_whatever_modes_and_tracks_are_called_is_read_back(tmp_path):
+    deck = replace(rb.deck("viaduct36"), mode_names=tuple(NAMES) + ("plain",) * 8)
+    deck = replace(deck, name="\udcff\n", tracks=dict.fromkeys(NAMES, 0.5))
+    back = rb.deck(exchange.export_modes(deck, tmp_path / "out"))
+    assert back.mode_names == deck.mode_names and back.tracks == deck.tracks
 
 
 # ---- somebody else's model
@@ -398,10 +445,12 @@ def test_units_that_make_no_bridge_are_refused_without_masses_too(name, folder):
 
 def test_doubtful_models_are_warned_about(folder):
     change(folder / "modes.csv", scaled(1, 2 * np.pi))
+    turned = rb.deck(folder / "deck.toml")
     with pytest.warns(
-        UserWarning, match=r"first frequency 20.8 Hz: bridges of 36 m have about 2.8 to 6.5 Hz"
+        rb.InputWarning,
+        match=r"frequency of 20.8 Hz, bridges of 36 m have about 2.8 to 6.5 Hz",
     ):
-        rb.deck(folder / "deck.toml")
+        crossing(turned, interaction="rigid", iterations=None)
     change(folder / "modes.csv", scaled(1, 0.5 / np.pi))
     change(folder / "modes.csv", scaled(8, -1.0))
     with pytest.warns(UserWarning, match="-ry is not the slope of uz along the rail"):
@@ -412,6 +461,92 @@ def test_doubtful_models_are_warned_about(folder):
     change(folder / "deck.toml", lambda lines: [x for x in lines if not x.startswith("masses")])
     with pytest.warns(UserWarning, match="modes 1 and 3 overlap by 0.45 along the rail"):
         rb.deck(folder / "deck.toml")
+
+
+def lateral_first(folder, factor):
+    """Give the first lateral mode the lowest frequency, and multiply all."""
+    kinds = [name.split()[0] for name in rb.deck(EXAMPLE / "deck.toml").mode_names]
+    lateral = str(kinds.index("lateral") + 1)
+    lines = (EXAMPLE / "modes.csv").read_text(encoding="utf-8").splitlines()
+    for i, line in enumerate(lines[2:], start=2):
+        row = line.split(",")
+        f = 0.9 if row[0] == lateral else float(row[1])
+        lines[i] = cells(line, 1, repr(f * factor))
+    (folder / "modes.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def test_radians_are_noticed_where_the_lowest_mode_is_a_lateral_one(folder):
+    """0.9 Hz in rad/s is 5.7, which would do for a deck of 36 m: the vertical one tells."""
+    lateral_first(folder, 1.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        crossing(rb.deck(folder / "deck.toml"), interaction="rigid", iterations=None)
+    lateral_first(folder, 2 * np.pi)
+    with pytest.warns(rb.InputWarning, match=r"first vertical frequency of 20.8 Hz.* rad/s\?"):
+        crossing(rb.deck(folder / "deck.toml"), interaction="rigid", iterations=None)
+
+
+def blanked(column):
+    return lambda lines: [*lines[:2], *(cells(line, column, "") for line in lines[2:])]
+
+
+def test_blank_rotations_are_none(folder):
+    """As Nastran writes those of solid elements."""
+    for columns in ((8, 9), (8, 9, 7)):
+        for column in columns:
+            change(folder / "modes.csv", blanked(column))
+        blank = rb.deck(folder / "deck.toml")
+        assert blank.has == {"y": True, "z": True, "roll": 7 not in columns}
+        if blank.has["roll"]:
+            assert differ(blank, rb.deck(EXAMPLE / "deck.toml")).max() < 5e-3
+
+
+def test_one_blank_rotation_is_said_to_be_blank(folder):
+    change(folder / "modes.csv", lambda lines: [*lines[:7], cells(lines[7], 8, " "), *lines[8:]])
+    with pytest.raises(
+        rb.InputError, match=r"modes.csv: line 8: ry = '': is blank, must be a number"
+    ):
+        rb.deck(folder / "deck.toml")
+
+
+def european(text):
+    """What a spreadsheet makes of a table where commas are decimal marks."""
+    head, *lines = text.splitlines()
+    body = [line.replace(",", ";").replace(".", ",") for line in lines]
+    return "\r\n".join([head.replace(",", ";") + ";;;", *body]) + "\r\n"
+
+
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_semicolons_and_decimal_commas_are_read(folder, separator):
+    plain = rb.deck(EXAMPLE / "deck.toml")
+    for name in ("nodes.csv", "modes.csv", "masses.csv"):
+        text = european((folder / name).read_text(encoding="utf-8"))
+        (folder / name).write_text(text.replace(";", separator), encoding="utf-8-sig")
+    found = rb.deck(folder / "deck.toml")
+    assert found.frequencies_hz.tolist() == plain.frequencies_hz.tolist()
+    assert differ(found, plain).max() == 0.0
+
+
+@pytest.mark.parametrize(
+    ("units", "kilograms", "metres"),
+    [
+        (("in", "lbf s2/in"), 175.12683524647636, 0.0254),
+        (("in", "kip s2/in"), 175126.83524647636, 0.0254),
+        (("mm", "kN s2/mm"), 1e6, 1e-3),
+        (("in", 175.12683524647636), 175.12683524647636, 0.0254),
+        ((0.3048, "slug"), 14.593902937206364, 0.3048),
+    ],
+)
+def test_masses_of_other_sets_of_units(units, kilograms, metres, tmp_path):
+    """A deck goes out and comes back; its places and shapes are in the units of the table."""
+    deck = rb.deck("viaduct36")
+    back = rb.deck(exchange.export_modes(deck, tmp_path, units))
+    assert differ(back, deck).max() < 1e-12 and back.length == pytest.approx(36.0)
+    nodes = (tmp_path / "nodes.csv").read_text(encoding="utf-8").splitlines()
+    assert float(nodes[-1].split(",")[1]) == pytest.approx(36.0 / metres)
+    row = (tmp_path / "modes.csv").read_text(encoding="utf-8").splitlines()[30].split(",")
+    there = deck.shapes(np.array([float(nodes[int(row[4]) + 2].split(",")[1]) * metres]))[0, 0]
+    assert float(row[7]) == pytest.approx(there[1] * np.sqrt(kilograms))
 
 
 def test_other_refusals_name_the_field(folder):

@@ -1,6 +1,8 @@
 """Loads on another program's nodes: its answers against ours, statics, and the files."""
 
+import csv
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -143,7 +145,31 @@ def test_other_refusals_name_the_field(ours, tmp_path):
         export_loads(ours, tmp_path / "no" / "x.csv", AXIS)
 
 
+@pytest.mark.parametrize("label", ["Tr\u00e4ger", "a b", "1,2", "x\ny"])
+def test_nodes_that_an_abaqus_file_cannot_name_are_refused(ours, tmp_path, label):
+    named = replace(AXIS, labels=tuple((f"{label}{i}",) for i in range(len(AXIS.x))))
+    with pytest.raises(rb.InputError, match="cannot name a node in an Abaqus file"):
+        export_loads(ours, tmp_path / "x.inp", named, form="abaqus")
+    export_loads(ours, tmp_path / "x.csv", named)
+    with (tmp_path / "x.csv").open(encoding="utf-8", newline="") as file:
+        assert f"node {label}" in next(csv.reader(file))[1]
+
+
 def test_bare_axles_go_out_too():
     step = begin(rb.AxleTrain([0.0, 3.0], [1e5, 2e5]), rb.Track(), AXIS, speed=30.0)
     total = nodal_loads(step).values[:, 2].sum(axis=0)
     assert total.min() == pytest.approx(-3e5) and total[0] == pytest.approx(-1e5)
+
+
+def test_loads_that_would_not_fit_into_memory_are_refused(ours, tmp_path):
+    with pytest.raises(rb.InputError, match=r"^line = 20001: loads of so many nodes at .* 2 GB"):
+        nodal_loads(ours, long_line(tmp_path, 20_000))
+    with pytest.raises(rb.InputError, match=r"^line = 4001: shapes of so many nodes .* 2 GB"):
+        begin(TRAIN, TRACK, long_line(tmp_path, 4000), **OPTIONS)
+
+
+def long_line(folder, elements):
+    rows = (f"{i},{36.0 * i / elements!r},0,0\n" for i in range(elements + 1))
+    path = folder / "nodes.csv"
+    path.write_text("# units: m, kg\nnode,x,y,z\n" + "".join(rows))
+    return exchange.read_nodes(path).line()

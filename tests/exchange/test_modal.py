@@ -2,6 +2,7 @@
 
 import dataclasses
 import shutil
+import warnings
 
 import numpy as np
 import pytest
@@ -96,6 +97,41 @@ def test_what_modes_cannot_give_is_null_and_said():
         crossing(deck, interaction="rigid", iterations=None).section_forces(18.0)
 
 
+def test_too_few_modes_of_a_viaduct_are_remarked(tmp_path):
+    """Six simple spans alike have six equal frequencies: four of them leave spans standing still,
+    five leave one half of what moves."""
+    beam = rb.Beam("six", (30.0,) * 6, 36e3, 2.5e11, continuous=False)
+    whole = rb.deck(rb.exchange.export_modes(beam.deck(12, 0.02), tmp_path / "whole"))
+    assert whole.remarks == ()
+    content = tmp_path / "whole"
+    few = rb.case(
+        {
+            "deck": {"file": str(content / "deck.toml"), "modes": 4},
+            "train": {"axles": [0.0], "loads": [1e5]},
+            "run": {"speed": 40.0, "interaction": "rigid"},
+        }
+    )
+    texts = [str(doubt) for doubt in few.doubts]
+    assert any(t.startswith("deck.modes.count = 4 cuts a group of equal") for t in texts)
+    # Written by a program that was asked for three modes, the file itself cannot tell.
+    short = rb.deck(rb.exchange.export_modes(beam.deck(3, 0.02), tmp_path / "short"))
+    (remark,) = short.remarks
+    assert str(remark).startswith("modes move nothing up and down from x = ")
+    assert "other span" in str(remark) or "m: too few" in str(remark)
+
+
+def test_modes_that_move_nothing_up_and_down_are_remarked(tmp_path):
+    sideways = rb.Beam("deck", (30.0,), 36e3, 2.5e11, 5e10).deck(2, 0.02)
+    only = dataclasses.replace(
+        sideways, shapes=_first(sideways.shapes, 1), frequencies_hz=sideways.frequencies_hz[:1],
+        damping_ratios=sideways.damping_ratios[:1], mode_names=sideways.mode_names[:1],
+        recovery=None,
+    )  # fmt: skip
+    assert not only.has["z"]
+    (remark,) = rb.deck(rb.exchange.export_modes(only, tmp_path / "only")).remarks
+    assert str(remark) == "modes move nothing up and down: vertical results are null."
+
+
 def test_a_rail_that_stands_still_and_damping_that_is_none_are_refused():
     model = read(EXAMPLE)
     line = model.nodes.line({"y": 0.0, "z": 0.0})
@@ -105,3 +141,25 @@ def test_a_rail_that_stands_still_and_damping_that_is_none_are_refused():
     still = dataclasses.replace(model, shapes=0.0 * model.shapes)
     with pytest.raises(rb.InputError, match="line: stands still in every mode"):
         deck_from_modes(still, line)
+
+
+def test_modes_that_are_left_out_take_their_damping_with_them():
+    """A mode in the middle that does not move the rail: the others keep their own ratios."""
+    model = read(EXAMPLE)
+    line = model.nodes.line({"y": 0.0, "z": 0.0})
+    shapes = np.array(model.shapes)
+    shapes[2] = 0.0
+    own = np.linspace(0.01, 0.1, len(shapes))
+    still = dataclasses.replace(model, shapes=shapes, damping_ratios=own)
+    kept = np.delete(np.arange(len(shapes)), 2)
+    alpha, beta = rb.rayleigh(0.03, (3.3, 16.3))
+    omega = 2 * np.pi * model.frequencies_hz[kept]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # masses do not fit a mode of zeros
+        decks = [deck_from_modes(still, line, damping=d) for d in (None, (alpha, beta), 0.02)]
+    by_rayleigh = alpha / (2 * omega) + beta * omega / 2
+    for deck, ratios in zip(decks, (own[kept], by_rayleigh, 0.02), strict=True):
+        assert deck.frequencies_hz == pytest.approx(model.frequencies_hz[kept])
+        assert deck.damping_ratios == pytest.approx(ratios * np.ones(len(kept)))
+    few = deck_from_modes(still, line, damping=(alpha, beta), count=4)
+    assert few.damping_ratios == pytest.approx(by_rayleigh[:4])

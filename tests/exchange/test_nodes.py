@@ -39,8 +39,8 @@ def test_units_may_be_said_by_the_file_or_by_the_caller(tmp_path):
         (["mm", "t", "s"], "must name a length and a mass. For instance"),
         (5, "units = 5: must name a length and a mass"),
         (["yd", "t"], r"units\[1\] = 'yd': must be one of m, mm, cm, km, in, ft"),
-        (["m", "tt"], r"units\[2\] = 'tt': must be one of kg, t, lb, slug. Did you mean 't'"),
-        ([1, 2], r"units\[1\] = 1: must be one of m"),
+        (["m", "tt"], r"units\[2\] = 'tt': .* kg, t, .*, or how many kg it is. Did you mean 't'"),
+        (["", 2], r"units\[1\] = '': must be one of m"),
     ],
 )
 def test_units_that_are_none(units, message):
@@ -107,7 +107,7 @@ ROW = {"nodes": [101, 102, 103]}
             "cannot stand beside nodes. Choose nodes by place or",
         ),
         ({"within": 0.1, "nodes": [1, 2, 3]}, "rail.within", "cannot stand beside nodes"),
-        ({"y": "left"}, "rail.y", "must be a finite number m"),
+        ({"y": "left"}, "rail.y", "must be a finite number in m"),
         ({"y": 0.0, "within": 0.0}, "rail.within", "above 0 m"),
         ({"x": 0.0}, "rail.x", "unknown key. Known: nodes, within, y, z"),
         (
@@ -130,7 +130,7 @@ ROW = {"nodes": [101, 102, 103]}
             "rail.right.nodes",
             "is no node of the model",
         ),
-        ({"left": {"y": "a"}, "right": RIGHT}, "rail.left.y", "must be a finite number m"),
+        ({"left": {"y": "a"}, "right": RIGHT}, "rail.left.y", "must be a finite number in m"),
         ({"left": LEFT, "right": 3}, "rail.right", "must be a table"),
         (
             {"left": LEFT, "right": {"nodes": [1, 2, 3]}},
@@ -150,7 +150,7 @@ def test_choices_that_make_no_line_name_the_field(rail, field, words):
 @pytest.mark.parametrize(
     ("axis", "field", "words"),
     [
-        ({"y": "middle"}, "axis.y", "must be a finite number m"),
+        ({"y": "middle"}, "axis.y", "must be a finite number in m"),
         ({"x": 0.0}, "axis.x", "unknown key. Known: y, z"),
         (0.0, "axis", "must be a table"),
     ],

@@ -1,6 +1,7 @@
 """The fixed point with somebody else's deck, against our own iteration."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -110,6 +111,35 @@ def test_relaxation_takes_a_share(ours):
     assert half.changes == whole.changes
 
 
+def test_relaxation_goes_from_the_last_pass_towards_the_next(ours):
+    """Not from the rigid deck: the second pass keeps half of the first."""
+    step = staggered.begin(TRAIN, TRACK, AXIS, **OPTIONS)
+    first = staggered.next_forces(step, motion_of(ours.at(0), AXIS))
+    motion = motion_of(ours.at(1), AXIS)
+    whole, part = (staggered.next_forces(first, motion, share) for share in (1.0, 0.3))
+    expected = 0.7 * first.passes[1][0] + 0.3 * whole.passes[2][0]
+    assert rms(part.passes[2][0] - expected) < 1e-12 * rms(expected)
+    assert rms(expected - 0.3 * whole.passes[2][0]) > 0.1 * rms(expected)
+    assert part.changes == whole.changes
+
+
+def test_rails_above_the_axis_move_sideways_as_the_deck_twists(ours):
+    """By -h times the twist, in the forces and in the equivalent irregularity alike."""
+    height, places = 1.5, (400, 700, 900)
+    deck = replace(rb.deck("viaduct36"), track_height=height)
+    high = rb.cross(TRAIN, deck, TRACK, iterations=1, **OPTIONS)
+    step = staggered.begin(TRAIN, TRACK, AXIS, track_height=height, **OPTIONS)
+    step = staggered.next_forces(step, motion_of(high.at(0), AXIS))
+    added, own = step.passes[1][0][:, 0], high.passes[1][0][:, 0]
+    assert rms(added - own) < 5e-2 * rms(own)
+    assert rms(own - ours.passes[1][0][:, 0]) > 0.2 * rms(own), "the height matters here"
+    met = staggered.equivalent_irregularity(step, car=1, wheel=3)
+    for k in places:
+        there = high.at(0).displacement(20.0 * met.time[k] - TRAIN.wheels[2].delay)
+        moved = there["displacement_y"][k] - height * there["rotation_x"][k]
+        assert met["deck_y"][k] == pytest.approx(moved, rel=2e-2)
+
+
 def test_the_equivalent_irregularity_is_track_plus_deck(ours):
     step = staggered.next_forces(
         staggered.begin(TRAIN, TRACK, AXIS, **OPTIONS), motion_of(ours.at(0), AXIS)
@@ -143,6 +173,7 @@ def test_histories_that_cannot_be_used_are_refused(ours, tmp_path):
         ),
         "must be finite": staggered.NodeMotion(good.time, good.y, good.z * np.nan, good.roll),
         "must have 25 nodes": staggered.NodeMotion(good.time, good.y, good.z[:20], good.roll),
+        "and less than 1e6 m": staggered.NodeMotion(good.time, good.y * 1e308, good.z, good.roll),
         "must ascend": staggered.NodeMotion(good.time[::-1], good.y, good.z, good.roll),
     }
     for message, motion in spoiled.items():
@@ -165,6 +196,7 @@ def test_histories_that_cannot_be_used_are_refused(ours, tmp_path):
             "column uz: is missing: the vertical displacement",
         ),
         (lambda lines: [lines[0], lines[1] + "x", *lines[2:]], "line 2: rx"),
+        (lambda lines: [lines[0], lines[1].rsplit(",", 1)[0] + ",1e308", *lines[2:]], "line 2: rx"),
     ]:
         write_motion(path, AXIS, instants, moved)
         path.write_text(

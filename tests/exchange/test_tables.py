@@ -49,7 +49,7 @@ def test_comments_say_units_and_rows_know_their_lines(tmp_path):
 
 def test_a_cell_between_quotes_may_hold_commas_and_lines(tmp_path):
     table = read(tmp_path, HEADER + '1,2,"a, b"\n2,3,"first\n# second\n\n"\n3,4,c\n')
-    assert table.cells["name"] == ["a, b", "first# second", "c"]
+    assert table.cells["name"] == ["a, b", "first\n# second", "c"]
     assert table.lines == [2, 3, 7]
 
 
@@ -65,18 +65,13 @@ BAD = [
     ("node,name\n1,a\n", "column x", None, "is missing. Columns: node,x,name"),
     ("node,x,nam\n1,2,a\n", "column nam", None, "unknown column. Did you mean 'name'?"),
     ("node,x,x\n1,2,a\n", "column x", None, "appears more than once"),
-    (
-        "node;x;name\n1;2;a\n",
-        "column node;x;name",
-        None,
-        "unknown column. Separate cells by commas",
-    ),
+    ("node x name\n1 2 a\n", "header", None, "Separate cells by commas or semicolons"),
     ("# said\n" + HEADER + "\n1,2\n", "line 4", "1,2", "must have 3 cells, it has 2"),
     (
         HEADER + "1,2,5,a\n",
         "line 2",
         "1,2,5,a",
-        "it has 4. Put cells that contain a comma between double quotes",
+        "it has 4. Use a point as decimal mark, and put cells that contain a comma between",
     ),
 ]
 
@@ -89,7 +84,59 @@ def test_bad_tables_name_file_line_and_column(tmp_path, text, field, value, word
     assert words in str(error.value)
 
 
-@pytest.mark.parametrize("cell", ["nan", "inf", "-1e999", "", "1;5", "two", "1.000.0"])
+SHORT = [
+    (HEADER + '1,2,"a\n2,3,b\n3,4,c\n', "line 2", "cannot be read.*a double quote not closed"),
+    (HEADER + '1,2,a\n2,3,"b"c\n', "line 3", "cannot be read.*a double quote not closed"),
+    (HEADER + "1,2,a\n2,3," + 200_000 * "b", "line 3", "cannot be read.*or a cell too long"),
+    ("node;x;name\n1;2;3;a\n", "line 2", "it has 4. Put cells that contain a semicolon"),
+]
+
+
+@pytest.mark.parametrize(("text", "field", "words"), SHORT)
+def test_what_is_no_row_names_the_line_where_it_starts(tmp_path, text, field, words):
+    with pytest.raises(rb.InputError, match=words) as error:
+        read(tmp_path, text)
+    assert (error.value.source, error.value.field) == ("t.csv", field)
+    assert len(str(error.value)) < 300
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "node;x;name\n1;0,5;a\n2;1,5;b\n",
+        "sep=;\nnode;x;name\r\n1;,5;a\r\n2;15,e-1;b\r\n",
+        'node\tx\tname\n1\t0.5\t"a"\n2\t1.5\tb\n',
+        "# first; second\n\n;;\nnode;x;name\n1;0.5;a\n2;1.5;b\n",
+    ],
+)
+def test_cells_between_semicolons_or_tabs(tmp_path, text):
+    table = read(tmp_path, text)
+    assert table.numbers("x").tolist() == [0.5, 1.5] and table.cells["name"] == ["a", "b"]
+
+
+def test_comments_of_spreadsheets_are_comments(tmp_path):
+    for line in ('"# units: mm, t";;', "# units: mm; t;;", "# units: mm t"):
+        assert read(tmp_path, line + "\nnode;x\n1;2\n").units == ("mm", "t")
+    assert read(tmp_path, "# units: in, lbf s2/in\nnode,x\n1,2\n").units == ("in", "lbf s2/in")
+
+
+def test_optional_columns_that_are_blank_are_not_there(tmp_path):
+    assert list(read(tmp_path, HEADER + "1,2,\n2,3, \n").cells) == ["node", "x"]
+    assert read(tmp_path, HEADER + "1,2,\n2,3,b\n").cells["name"] == ["", "b"]
+
+
+REMEDIES = {
+    "": "is blank, must be a number",
+    "nan": "must be a finite number. Use a point as decimal mark",
+    "inf": "must be a finite number",
+    "-1e999": "must be a finite number",
+    "two": "must be a finite number",
+    "1;5": "must be a finite number",
+    "1.000.0": "may have a mark for thousands",
+}
+
+
+@pytest.mark.parametrize("cell", REMEDIES)
 def test_what_is_no_number_is_named_with_its_line(tmp_path, cell):
     table = read(tmp_path, HEADER + f"1,2,a\n# one\n2,{cell},b\n")
     with pytest.raises(rb.InputError) as error:
@@ -99,7 +146,7 @@ def test_what_is_no_number_is_named_with_its_line(tmp_path, cell):
         "line 4: x",
         cell,
     )
-    assert "must be a finite number. Use a point as decimal mark" in str(error.value)
+    assert REMEDIES[cell] in str(error.value)
 
 
 def test_a_label_that_is_given_twice_is_named_with_both_lines(tmp_path):
@@ -116,12 +163,10 @@ def test_a_file_that_is_not_there_or_cannot_be_read(tmp_path):
         rb.InputError, match="path = 'no.csv': no such file. A path in a deck file is relative"
     ):
         read_columns(tmp_path / "no.csv", ["node"])
-    with pytest.raises(rb.InputError, match="is not a readable CSV file"):
+    with pytest.raises(rb.InputError, match="must be a regular file, not a folder"):
         read_columns(tmp_path, ["node"])
     (tmp_path / "t.csv").write_bytes("knoten,länge\n".encode("latin-1"))
-    with pytest.raises(
-        rb.InputError, match="path = 't.csv': is not a readable CSV file .*Save it as UTF-8 text"
-    ):
+    with pytest.raises(rb.InputError, match="path = 't.csv': is not text. Save it as UTF-8 text"):
         read_columns(tmp_path / "t.csv", ["node"])
 
 

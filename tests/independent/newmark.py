@@ -58,7 +58,7 @@ def crossing(car, beam, speed, wave, elements=20, step=2.5e-4, tail=0.2):
     """Time, mid-span displacement, mid-span moment and axle forces of a plane car on a beam.
 
     The car is a `references.PlaneVehicle`. The moment is the end moment of the element left of
-    mid-span, its own loads and inertia taken off.
+    mid-span, with the viscous part of Rayleigh's damping, its own loads and inertia taken off.
     """
     fem = Elements(beam.length, beam.mass, beam.bending, elements)
     k, m = (a[np.ix_(fem.free, fem.free)] for a in (fem.stiffness, fem.mass))
@@ -104,21 +104,23 @@ def crossing(car, beam, speed, wave, elements=20, step=2.5e-4, tail=0.2):
         dashpots = car.damper * (join @ dy + climb @ y - rate)
         forces[:, n] = car.spring * (join @ y - r) + dashpots - car.static
         inertia = ddy[f:] + beam.alpha * dy[f:]
-        moment[n] = _moment(fem, half, y[f:], inertia, forces[:, n], places, beam)
+        strain = y[f:] + beam.beta * dy[f:]
+        moment[n] = _moment(fem, half, strain, inertia, forces[:, n], places, beam)
     return time, middle, moment, forces
 
 
-def _moment(fem, half, d, inertia, forces, places, beam):
-    """M_y at the node `half`: the elastic end moment of the element to its left.
+def _moment(fem, half, strain, inertia, forces, places, beam):
+    """M_y at the node `half`: the end moment of the element to its left.
 
-    The element's own loads and inertia are taken off.
+    `strain` is d + beta d', which the stiffness turns into elastic and viscous forces. The
+    element's own loads and inertia are taken off.
     """
     whole, moving = np.zeros((2, 2 * (fem.count + 1)))
-    whole[fem.free], moving[fem.free] = d, inertia
+    whole[fem.free], moving[fem.free] = strain, inertia
     here = np.arange(2 * half - 2, 2 * half + 2)
     scale = np.outer([1, fem.h] * 2, [1, fem.h] * 2)
-    elastic = fem.bending / fem.h**3 * (STIFFNESS * scale) @ whole[here]
-    end = elastic + beam.mass * fem.h * (MASS * scale) @ moving[here]
+    inner = fem.bending / fem.h**3 * (STIFFNESS * scale) @ whole[here]
+    end = inner + beam.mass * fem.h * (MASS * scale) @ moving[here]
     for force, x in zip(forces, places, strict=True):
         s = x / fem.h - (half - 1)
         if 0.0 <= s <= 1.0:

@@ -5,6 +5,7 @@ import io
 import threading
 from base64 import b64decode
 
+import ipywidgets as widgets
 import numpy as np
 import pytest
 from matplotlib.image import imread
@@ -194,6 +195,55 @@ def test_a_refusal_after_a_coarse_picture_promises_nothing():
     asyncio.run(work())
 
 
+def test_remarks_stand_below_the_summary_and_go_with_their_reason(panel):
+    assert panel.remarks.value == "" and "rb-remarks" in panel.remarks._dom_classes
+    base, panel._base = panel._base, panel._base.replace({"track.lateral.phase": 90.0})
+    panel._results.clear()
+    panel.set(speed=22.0)
+    assert "track.lateral.phase = 90 rad" in panel.remarks.value
+    assert panel.remarks.value.startswith('<div role="note"')
+    panel._base = base
+    panel._results.clear()
+    panel.reset()
+    assert panel.remarks.value == ""
+
+
+def test_remarks_are_escaped_and_three_at_most():
+    found = [rb.InputWarning("deck", f"<b>{i}</b> is odd") for i in range(5)]
+    case = rb.case("paper").replace(QUICK)
+    control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
+    panel = panels.Panel(
+        case, [control], [["a"]], lambda *_: None, lambda *_: "", compute=lambda *_: None,
+        remarks=lambda *_: found,
+    )  # fmt: skip
+    assert "deck &lt;b&gt;2&lt;/b&gt; is odd" in panel.remarks.value
+    assert "<b>" not in panel.remarks.value and "&lt;b&gt;3" not in panel.remarks.value
+    assert "And 2 more" in panel.remarks.value
+
+
+def test_remarks_come_with_the_exact_picture_not_while_moving():
+    asked = []
+
+    def remarks(case, result):
+        asked.append(case.settings.time_step)
+        return [rb.ResultWarning("", f"at {case.settings.speed:g} m/s")]
+
+    control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
+    case = rb.case("paper").replace({"run.time_step": None})
+    panel = panels.Panel(
+        case, [control], [["a"]], lambda *_: None, lambda *_: "", compute=lambda *_: None,
+        remarks=remarks, rough=True,
+    )  # fmt: skip
+
+    async def work():
+        panel.sliders["speed"].value = 25.0
+        assert panel.remarks.value == ""
+        await until(lambda: "at 25 m/s" in panel.remarks.value)
+
+    asyncio.run(work())
+    assert max(asked) <= 1e-3, "a coarse run is not remarked upon"
+
+
 def test_an_error_of_the_exact_crossing_is_said_when_the_panel_rests():
     def compute(case, progress):
         if case.settings.time_step < 2e-3 and case.settings.speed > 20.0:
@@ -278,6 +328,38 @@ def test_amplitude_is_si(all_panels):
     panel.reset()
 
 
+def labels_of(widget):
+    """Texts beside the controls, wherever they stand."""
+    own = [widget.value] if isinstance(widget, widgets.Label) else []
+    return own + [text for child in getattr(widget, "children", ()) for text in labels_of(child)]
+
+
+def test_beside_the_speed_stands_what_a_driver_reads(panel):
+    if "speed" not in panel.controls:
+        pytest.skip("this panel has no speed")
+    assert "= 72.0 km/h" in labels_of(panel.widget)
+    panel.set(speed=25.0)
+    assert "= 90.0 km/h" in labels_of(panel.widget) and "25.0 m/s (90.0 km/h)" in panel.summary
+
+
+def test_words_from_a_case_are_shown_and_never_run():
+    """Names in a file may hold anything; a page must show it as letters."""
+    control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
+    evil = "<img src=x onerror=alert(1)> & 'more'"
+
+    def compute(case, progress):
+        if case.settings.speed > 30.0:
+            raise RuntimeError(evil)
+
+    panel = panels.Panel(
+        rb.case("paper"), [control], [["a"]], lambda *_: None, lambda *_: evil, compute=compute
+    )
+    panel.sliders["speed"].value = 40.0
+    for shown in (panel.words.value, panel.trouble.value):
+        assert "&lt;img src=x onerror=alert(1)&gt; &amp; " in shown
+        assert "<img" not in shown
+
+
 def test_an_error_is_said_in_words_and_the_next_value_recovers(all_panels):
     panel = all_panels["deck_modes"]
     image, words = png(panel), panel.summary
@@ -354,6 +436,59 @@ def test_only_the_mode_is_marked_on_the_curve_of_damping(all_panels):
     (axes,) = [ax for ax in panel.figure.axes if ax.get_ylabel().startswith("damping")]
     assert not any("forcing" in text.get_text() for text in axes.texts)
     assert any("the mode" in text.get_text() for text in axes.texts)
+
+
+def test_a_wavelength_is_that_of_both_directions(all_panels):
+    panel = all_panels["overview"].set(wavelength=12.0)
+    paths = ("track.vertical.wavelength", "track.lateral.wavelength")
+    assert [panel.case.get(path) for path in paths] == [12.0, 12.0]
+    panel.reset()
+
+
+def test_the_words_of_the_deck_are_its_own_extremes(all_panels):
+    panel = all_panels["deck_response"].set(speed=30.0, loads="bogies")
+    run = panel.case.run()
+    w, when_w = run.displacement(18.0).extreme("displacement_z")
+    m, when_m = run.section_forces(18.0).extreme("moment_vertical")
+    assert when_w != when_m
+    assert (
+        f"largest at x = 18 m are {1e3 * w:.2f} mm (t = {when_w:.2f} s) and {m / 1e3:.0f} kN m "
+        f"(t = {when_m:.2f} s), bogie loads under rigid-deck forces." in panel.summary
+    )
+    panel.reset()
+
+
+@pytest.mark.parametrize("name", ["fixed_point", "overview"])
+def test_the_words_of_an_iteration_are_those_of_its_number(all_panels, name):
+    panel = all_panels[name].set(speed=30.0, iteration=2)
+    run = panel.case.run()
+    deviation, change = run.deviations.from_rigid[1], run.changes[1]
+    assert len({f"{c:.1e}" for c in run.changes}) == 4
+    sag = [1e3 * run.at(i).displacement(18.0).extreme("displacement_z")[0] for i in (0, 2)]
+    assert f"{sag[1]:.2f} mm at iteration 2 of 4" in panel.summary
+    assert f"{sag[0]:.2f} mm at iteration 0" in panel.summary
+    if name == "fixed_point":
+        words = f"deviation from the rigid deck {deviation:+.3f} % (Eq. 3), change of this "
+        words += f"iteration {change:.1e}."
+    else:
+        words = f"the force of car 1 differs from that on a rigid deck by {deviation:+.1f} % "
+        words += f"(Eq. 3); the wheel forces changed by {100 * change:.2g} % in this iteration; "
+        words += "forcing 2.083 Hz."
+    assert words in panel.summary
+    assert "rigid-deck forces" in panel.set(iteration=0).summary
+    panel.reset()
+
+
+def test_each_picture_shows_the_frequencies_of_its_subject(all_panels):
+    for name, values in (
+        ("deck_modes", lambda case: case.deck.frequencies_hz),
+        ("irregularities", lambda case: case.train.vehicles[0].modes().frequencies_hz),
+    ):
+        panel = all_panels[name]
+        lines = {line.get_gid(): line for line in panel._axes["frequencies"].lines}
+        shown = lines["natural"].get_xdata()[::3]
+        assert np.allclose(shown, values(panel.case)[: len(shown)]), name
+        assert np.allclose(lines["line at forcing"].get_xdata(), 20.0 / 14.4)
 
 
 def test_a_value_seen_before_is_not_computed_again():

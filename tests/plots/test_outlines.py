@@ -1,10 +1,12 @@
 """Outlines are where the vehicle and the train say their parts are."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import railbridge as rb
-from railbridge.plots.outlines import Heights, VehicleOutline, train_outline
+from railbridge.plots.outlines import Heights, VehicleOutline, drawn_length, is_long, train_outline
 
 HEIGHTS = Heights(wheel=0.5, frame=1.0, floor=1.5, roof=4.0)
 
@@ -70,3 +72,14 @@ def test_wheels_side_by_side_are_one_axle(uneven):
     assert "3.3 m" in texts
     run = rb.cross(rb.Train(uneven), rb.deck("viaduct36"), speed=20.0, time_step=4e-3)
     assert len(rb.plots.wheel_forces(run)) == 2
+
+
+def test_a_vehicle_without_a_length_is_drawn_about_its_wheels():
+    car = rb.vehicle("xia2000")
+    bare = replace(car, length=None)
+    assert drawn_length(car) == 22.5
+    assert drawn_length(bare) == pytest.approx(2 * 9.05 + 2.0)
+    assert is_long(bare)
+    drawn = train_outline(rb.Train(bare, cars=2, car_spacing=22.5)).cars[0]
+    assert drawn.ends[1] - drawn.ends[0] > 2 * 9.05
+    rb.plots.vehicle(bare)

@@ -1,6 +1,8 @@
 """Every figure is drawn, says its units, changes no settings; no legend hides anything."""
 
 import inspect
+from dataclasses import replace
+from functools import cache
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -29,20 +31,28 @@ def close():
     plt.close("all")
 
 
+@cache
+def box():
+    return rb.Box(
+        "box", (36.0,), 9.6, 0.25, 2.0, 0.35, 5.0, 0.2, 34e9, tracks={"left": 2.4, "right": -2.4}
+    )
+
+
+@cache
+def shell_and_modes():
+    shell = box().shell(rb.BoxMesh(16, 2, 4, 2))
+    return shell, shell.modes(6)
+
+
 @pytest.fixture(scope="module")
 def figures(case, run):
     """One call of every figure, by name."""
     car, deck, train, track = run.train.vehicles[0], run.deck, run.train, run.track
     notch = rb.Notch(((1, 1),), 2.7, 1.0, 1e-3, 0.05)
-    box = rb.Box(
-        "box", (36.0,), 9.6, 0.25, 2.0, 0.35, 5.0, 0.2, 34e9, tracks={"left": 2.4, "right": -2.4}
-    )
-    shell = box.shell(rb.BoxMesh(16, 2, 4, 2))
-    shell_modes = shell.modes(6)
     return {
         "acceleration": lambda: plots.acceleration(run, 18.0),
         "assurance": lambda: plots.assurance(np.eye(3), ("a", "b", "c"), ("d", "e", "f")),
-        "box_section": lambda: plots.box_section(box, box.section),
+        "box_section": lambda: plots.box_section(box(), box().section),
         "car_forces": lambda: plots.car_forces(run, steady={"force_z": 75.8e3}),
         "convergence": lambda: plots.convergence(run),
         "damping": lambda: plots.damping(1.0364, 4.87e-4, {"second bending": 13.23}),
@@ -58,8 +68,8 @@ def figures(case, run):
         "notch": lambda: plots.notch(notch, 0.0, 10.0),
         "reactions": lambda: plots.reactions(run),
         "section_force": lambda: plots.section_force(run, 18.0, "torsion"),
-        "shell_mode": lambda: plots.shell_mode(shell, shell_modes, 4),
-        "shell_modes": lambda: plots.shell_modes(shell, shell_modes),
+        "shell_mode": lambda: plots.shell_mode(*shell_and_modes(), 4),
+        "shell_modes": lambda: plots.shell_modes(*shell_and_modes()),
         "slope": lambda: plots.slope(track, deck=36.0),
         "spectra": lambda: plots.spectra(run),
         "spectrum": lambda: plots.spectrum(run, mark={"second bending": 13.23}),
@@ -187,6 +197,212 @@ def test_spectra_titles_give_equation_3(run):
     assert titles[2] == f"i = 2, Eq. 3: {run.deviations.from_rigid[1]:+.3f} %"
 
 
+def labelled(ax, label):
+    return next(line for line in ax.lines if line.get_label() == label)
+
+
+# From SI to what is drawn, by the unit that stands on the axis.
+DRAWN = {"mm": 1e3, "kN": 1e-3, "kN m": 1e-3, "mrad": 1e3, "mm/s": 1e3, "mrad/s": 1e3, "mm/m": 1e3}
+DRAWN |= {"m/s²": 1.0, "rad/s²": 1.0, "%": 100.0}
+HISTORIES = [
+    (lambda r: plots.displacement(r, 18.0), "displacement", "displacement_z", "vertical", "mm"),
+    (
+        lambda r: plots.displacement(r, 18.0, component="y"),
+        "displacement",
+        "displacement_y",
+        "lateral",
+        "mm",
+    ),
+    (
+        lambda r: plots.displacement(r, 18.0, component="x"),
+        "displacement",
+        "rotation_x",
+        "twist",
+        "mrad",
+    ),
+    (lambda r: plots.velocity(r, 18.0), "velocity", "velocity_z", "vertical", "mm/s"),
+    (
+        lambda r: plots.velocity(r, 18.0, component="roll"),
+        "velocity",
+        "velocity_roll",
+        "twist",
+        "mrad/s",
+    ),
+    (lambda r: plots.acceleration(r, 18.0), "acceleration", "acceleration_z", "vertical", "m/s²"),
+    (
+        lambda r: plots.section_force(r, 18.0),
+        "section_forces",
+        "moment_vertical",
+        "vertical bending moment",
+        "kN m",
+    ),
+    (
+        lambda r: plots.section_force(r, 18.0, "moment_lateral"),
+        "section_forces",
+        "moment_lateral",
+        "lateral bending moment",
+        "kN m",
+    ),
+    (
+        lambda r: plots.section_force(r, 18.0, "torsion"),
+        "section_forces",
+        "torsion",
+        "torsion",
+        "kN m",
+    ),
+    (
+        lambda r: plots.section_force(r, 9.0, "shear_vertical"),
+        "section_forces",
+        "shear_vertical",
+        "vertical shear",
+        "kN",
+    ),
+]
+
+
+@pytest.mark.parametrize(("figure", "call", "quantity", "words", "unit"), HISTORIES)
+def test_a_history_is_drawn_as_it_is_in_the_unit_of_its_axis(
+    run, figure, call, quantity, words, unit
+):
+    x = 9.0 if quantity == "shear_vertical" else 18.0
+    ax = figure(run)
+    line = next(line for line in ax.lines if line.get_gid().startswith(quantity))
+    assert np.array_equal(line.get_xdata(), run.time)
+    assert np.allclose(line.get_ydata(), DRAWN[unit] * getattr(run, call)(x)[quantity])
+    assert ax.get_ylabel().replace("\n", " ").startswith(words)
+    assert (
+        f"({unit})" in ax.get_ylabel()
+        and ax.get_xlabel().startswith("time")
+        and ("(s)" in ax.get_xlabel())
+    )
+    assert f"x = {x:g} m" in line.get_label()
+
+
+@pytest.mark.parametrize("name", QUANTITY_STYLES)
+def test_a_quantity_s_factor_is_that_of_its_unit(name):
+    style = QUANTITY_STYLES[name]
+    assert style.factor == DRAWN[style.unit]
+    for direction, mark in (("vertical", ("_z", "vertical")), ("lateral", ("_y", "lateral"))):
+        if name.endswith(mark) and not name.startswith("moment_"):
+            assert style.words.startswith(direction), name
+
+
+@pytest.mark.parametrize(
+    ("quantity", "unit"), [("force_z", "kN"), ("force_y", "kN"), ("moment_x", "kN m")]
+)
+def test_reactions_stand_under_the_name_of_their_bearing(run, quantity, unit):
+    ax = plots.reactions(run, quantity=quantity)
+    for x, history in run.reactions().items():
+        drawn = labelled(ax, f"bearing at {x:g} m").get_ydata()
+        assert np.allclose(drawn, 1e-3 * history[quantity])
+    assert f"({unit})" in ax.get_ylabel()
+
+
+def test_forces_of_a_car_stand_under_their_own_names(run):
+    for ax, name in zip(plots.car_forces(run, 2), rb.trains.CONDENSED, strict=True):
+        line = next(line for line in ax.lines if line.get_gid() == name)
+        assert np.allclose(line.get_ydata(), 1e-3 * run.car_forces(2, "track", False)[name])
+        assert QUANTITY_STYLES[name].words in ax.get_ylabel().replace("\n", " ")
+    forces, moments = plots.forces.car_components(run)
+    for ax, labels, kind in (
+        (forces, {"lateral": "force_y", "vertical": "force_z"}, "force (kN)"),
+        (moments, {"roll": "moment_x", "pitch": "moment_y", "yaw": "moment_z"}, "moment (kN m)"),
+    ):
+        for label, name in labels.items():
+            own = 1e-3 * run.car_forces(1, static=False)[name]
+            assert np.allclose(labelled(ax, label).get_ydata(), own)
+        assert ax.get_ylabel() == f"car 1, {kind}"
+
+
+def test_wheels_of_an_axle_stand_under_their_rail(run):
+    axes = plots.wheel_forces(run, 2)
+    assert [ax.get_title(loc="left") for ax in axes] == [f"axle {n}" for n in (1, 2, 3, 4)]
+    for number, ax in enumerate(axes):
+        drawn = {line.get_gid(): line.get_ydata() for line in ax.lines}
+        for side, wheel in (("left", 2 * number + 1), ("right", 2 * number + 2)):
+            history = run.wheel_force(2, wheel)
+            for name in ("force_y", "force_z"):
+                assert np.allclose(drawn[f"{name} {side}"], 1e-3 * history[name])
+    shown = {line.get_label() for line in axes[0].lines if line.get_label()[0] != "_"}
+    assert shown >= {f"{w} force, {s}" for w in ("lateral", "vertical") for s in ("left", "right")}
+
+
+def test_spectra_convergence_and_damping_are_drawn_as_computed(run):
+    line = next(x for x in plots.spectrum(run).lines if x.get_gid().endswith("heads"))
+    assert np.allclose(line.get_ydata(), 1e-3 * run.spectrum.amplitude)
+    assert np.array_equal(line.get_xdata(), run.spectrum.frequency)
+    ax = plots.convergence({"condensed": run})
+    assert np.allclose(labelled(ax, "condensed").get_ydata(), run.changes)
+    alpha, beta = 1.0364, 4.87e-4
+    ax = plots.damping(alpha, beta)
+    for label, a, b in (
+        ("mass part", alpha, 0.0),
+        ("stiffness part", 0.0, beta),
+        ("damping ratio", alpha, beta),
+    ):
+        f, shown = labelled(ax, label).get_data()
+        assert np.allclose(shown, 100 * (a / (4 * np.pi * f) + b * np.pi * f))
+
+
+def test_a_mode_is_drawn_in_its_directions_and_called_by_its_numbers(run):
+    deck = run.deck
+    for mode, name in enumerate(deck.mode_names[:6], start=1):
+        ax = plots.deck_mode(deck, mode)
+        f, ratio = deck.frequencies_hz[mode - 1], 100 * deck.damping_ratios[mode - 1]
+        title = f"mode {mode}: {name}, {f:.4g} Hz, damping {ratio:.1f} %"
+        assert ax.get_title(loc="left") == title
+        way = {"l": "lateral", "v": "vertical", "t": "twist, at the edge"}[name[0]]
+        shown = [line.get_label() for line in ax.lines if line.get_label()[0] != "_"]
+        assert shown == [way], name
+
+
+@pytest.mark.parametrize(
+    ("quantity", "load", "factor", "unit"),
+    [
+        ("displacement_z", 1, 1e9, "mm per MN"),
+        ("displacement_y", 0, 1e9, "mm per MN"),
+        ("rotation_x", 2, 1e9, "mrad per MN m"),
+        ("moment_vertical", 1, 1.0, "m"),
+        ("moment_lateral", 0, 1.0, "m"),
+        ("shear_vertical", 1, 1.0, "-"),
+        ("torsion", 2, 1.0, "-"),
+    ],
+)
+def test_an_influence_line_is_that_of_the_load_named_below_it(run, quantity, load, factor, unit):
+    ax = plots.influence_line(run.deck, quantity, 12.0)
+    x, shown = next(line for line in ax.lines if line.get_gid() == "line").get_data()
+    known = run.deck.recovery.section(quantity, 12.0).influence(x)[:, 0, load]
+    assert np.allclose(shown, factor * known) and np.abs(shown).max() > 0.0
+    way = ("lateral", "upward", "roll")[load]
+    assert ax.get_ylabel().replace("\n", " ") == f"per unit {way} load ({unit})"
+    assert QUANTITY_STYLES[quantity].words in next(
+        line.get_label() for line in ax.lines if line.get_gid() == "line"
+    )
+
+
+def test_deviations_are_drawn_under_their_own_names(run):
+    known = run.deviations
+    assert not np.allclose(known.from_rigid[1:], known.from_previous[1:])
+    for runs, before in ((run, ""), ({"condensed": run}, "condensed, ")):
+        ax = plots.deviations(runs)
+        assert np.allclose(labelled(ax, f"{before}from rigid").get_ydata(), known.from_rigid)
+        assert np.allclose(labelled(ax, f"{before}from previous").get_ydata(), known.from_previous)
+        assert labelled(ax, f"{before}from rigid").get_xdata().tolist() == [1, 2, 3, 4]
+
+
+def test_iterations_are_drawn_under_their_own_numbers(run):
+    upper, lower = plots.iterations(run, "displacement_z", (0, 1, 4), x=18.0)
+    values = {i: 1e3 * run.at(i).displacement(18.0)["displacement_z"] for i in (0, 1, 4)}
+    assert np.allclose(labelled(upper, "rigid deck (0)").get_ydata(), values[0])
+    assert np.allclose(labelled(upper, "iteration 1").get_ydata(), values[1])
+    assert np.allclose(labelled(upper, "iteration 4").get_ydata(), values[4])
+    differences = [line for line in lower.lines if (line.get_gid() or "").startswith("rank")]
+    assert [np.abs(line.get_ydata()).max() for line in differences] == pytest.approx(
+        [np.abs(values[i] - values[4]).max() for i in (0, 1)]
+    )
+    assert lower.get_ylabel() == "minus iteration 4\n(mm)"
+
+
 def test_no_two_quantities_look_alike():
     lines = [
         (v.colour, v.line)
@@ -250,6 +466,29 @@ def test_other_shades_can_be_told_from_the_first():
             np.array_equal(np.argsort(first)[[0, -1]], np.argsort(other)[[0, -1]])
             or len(set(first)) == 1
         ), colour
+
+
+NAMES = ["$$", "$x^$", "a $\\frac$ b", "1 $", "\\$", "plain"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_names_from_files_are_drawn_as_they_are(name, run):
+    """A dollar sign begins no formula: `$x^$` is none, and stopped the picture."""
+    usual = rb.vehicle("sprung_mass")
+    body, spring = replace(usual.bodies[0], name=name), replace(usual.springs[0], from_=name)
+    car = rb.Vehicle(name, (body,), (spring,), 10.0)
+    deck = replace(run.deck, name=name, mode_names=(name,) * len(run.deck.mode_names))
+    box = rb.Box(name, (36.0,), 9.6, 0.25, 2.0, 0.35, 5.0, 0.2, 34e9, tracks={name: 2.4})
+    drawn = [
+        plots.vehicle(car)[0], plots.vehicle_mode(car, 1)[0], plots.deck_mode(deck, 1),
+        plots.deck_modes(deck)[0], plots.frequencies(car), plots.frequencies(deck),
+        plots.train_on_deck(run.train, deck), plots.box_section(box, box.section),
+    ]  # fmt: skip
+    for ax in drawn:
+        ax.figure.canvas.draw()
+        texts = [t.get_text() for t in ax.figure.findobj(mpl.text.Text)]
+        if name == "$$":
+            assert any(name.replace("$", r"\$") in text for text in texts)
 
 
 def test_public_functions_take_axes():

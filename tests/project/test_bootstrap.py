@@ -30,7 +30,11 @@ def environment(bootstrap, tmp_path):
     (tmp_path / "pyproject.toml").write_text("[project]\n")
     environment.python.parent.mkdir(parents=True)
     environment.python.touch()
-    environment.stamp.write_text(json.dumps(environment.wanted()))
+    site = environment.path / "lib" / "python3.11" / "site-packages"
+    for name in ("numpy", "numpy-2.0.dist-info", "pip-24.0.dist-info", "__pycache__"):
+        (site / name).mkdir(parents=True)
+    stamp = environment.wanted() | {"installed": sorted(environment.installed())}
+    environment.stamp.write_text(json.dumps(stamp))
     return environment
 
 
@@ -89,8 +93,8 @@ def fake_install(environment, bootstrap, monkeypatch, works):
         environment.python.parent.mkdir(parents=True, exist_ok=True)
         environment.python.touch()
 
-    def install():
-        steps.append("install")
+    def install(anew):
+        steps.append("install anew" if anew else "install")
         assert environment.unfinished.exists()
         assert not environment.stamp.exists(), "the stamp must be the last thing written"
         if not works:
@@ -100,7 +104,7 @@ def fake_install(environment, bootstrap, monkeypatch, works):
     monkeypatch.setattr(
         bootstrap.subprocess, "run", lambda *a, **k: subprocess.CompletedProcess(a, 0)
     )
-    monkeypatch.setattr(environment, "has_uv", lambda: False)
+    monkeypatch.setattr(environment, "has_uv", lambda anew: False)
     monkeypatch.setattr(environment, "install_with_pip", install)
     return steps
 
@@ -118,6 +122,50 @@ def test_an_interruption_is_noticed_and_repaired(environment, bootstrap, monkeyp
     assert environment.is_right()
     assert steps == ["venv", "install"]
     assert not half_made.exists()
+
+
+@pytest.mark.parametrize("gone", ["numpy", "numpy-2.0.dist-info"])
+def test_a_package_that_was_deleted_is_put_back(environment, bootstrap, monkeypatch, gone):
+    """Its metadata alone would make an installer believe that it is there: all is made anew."""
+    (environment.path / "lib" / "python3.11" / "site-packages" / gone).rmdir()
+    assert environment.missing() == {gone}
+    assert not environment.is_right()
+    assert not environment.must_start_over()
+    steps = fake_install(environment, bootstrap, monkeypatch, works=True)
+    environment.make()
+    assert steps == ["install anew"]
+    assert environment.is_right()
+
+
+def test_packages_of_ones_own_and_a_newer_pip_are_left_alone(environment):
+    site = environment.path / "lib" / "python3.11" / "site-packages"
+    (site / "mine").mkdir()
+    (site / "pip-24.0.dist-info").rename(site / "pip-26.0.dist-info")
+    (site / "__pycache__").rmdir()
+    assert environment.is_right()
+
+
+def test_an_environment_of_before_that_lists_nothing_is_brought_up_to_date(environment):
+    environment.stamp.write_text(json.dumps(environment.wanted()))
+    assert not environment.is_right()
+    assert not environment.must_start_over()
+
+
+def test_installers_are_told_to_install_anew(environment, bootstrap, monkeypatch):
+    commands = []
+
+    def run(command, **_):
+        commands.append(list(map(str, command)))
+        return subprocess.CompletedProcess(command, 0, stdout="", stderr="")
+
+    monkeypatch.setattr(bootstrap.subprocess, "run", run)
+    for anew in (False, True):
+        commands.clear()
+        assert environment.has_uv(anew) and environment.install_with_uv(anew)
+        environment.install_with_pip(anew)
+        flags = [bool({"--reinstall", "--force-reinstall"} & set(c)) for c in commands]
+        locked = ["uv==1.0" in c or str(environment.lock) in c for c in commands]
+        assert flags == [anew and own for own in locked] and sum(locked) == 3
 
 
 @pytest.mark.parametrize("missing", ["venv", "ensurepip"])

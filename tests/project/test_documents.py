@@ -9,6 +9,7 @@ import yaml
 
 import railbridge as rb
 from railbridge.cases import pages
+from railbridge.units import UNITS
 
 ROOT = Path(__file__).resolve().parents[2]
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
@@ -101,3 +102,11 @@ def test_tables_of_the_case_page_are_those_of_the_types():
     text = (ROOT / "docs" / "case.md").read_text(encoding="utf-8")
     assert pages.with_tables(text) == text, "run `make pages`"
     assert len(re.findall("<!-- table: ", text)) >= 10
+
+
+def test_every_unit_is_on_the_case_page():
+    text = (ROOT / "docs" / "case.md").read_text(encoding="utf-8")
+    listed = text.partition("<!-- table: units -->")[2].partition("<!-- end -->")[0]
+    for dimension, family in UNITS.items():
+        row = next(x for x in listed.splitlines() if x.startswith(f"| {dimension} |"))
+        assert re.findall("`(.+?)`", row) == [unit for unit in family if unit]

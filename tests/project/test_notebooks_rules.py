@@ -74,6 +74,9 @@ FIGURE_WORDS = 12
 FILE_BYTES = 400_000
 
 MARKED = "NBVAL_CHECK_OUTPUT"
+# A section or a shell of a box; and where the page says what that needs.
+USES_FEM = re.compile(r"\brb\.box\(|\brb\.Box\(|railbridge\.boxes\b")
+SAYS_FEM = re.compile(r"# .*\n\nNeeds the extra `fem`")
 EXEMPT = re.compile(r"^# not compared: \S.*\S", re.MULTILINE)
 SYMBOL_HEADER = ["symbol", "in code", "meaning", "unit", "value", "source"]
 RAW_IN_JUPYTER = {
@@ -194,6 +197,9 @@ def rules_of_the_page(notebook, number, page):
         yield f"the first line is the title: '# {number} - Verb ...'"
     if sum(len(headings(cell, 1)) for cell in notebook.cells) != 1:
         yield "there is one first-level heading, the title"
+    code = joined(filter(is_code, notebook.cells))
+    if USES_FEM.search(code) and not SAYS_FEM.match(first):
+        yield "a page that needs an extra says so below its title: 'Needs the extra `fem`'"
     if "?" not in first:
         yield "the question that the page answers stands below the title"
     found = [heading for cell in notebook.cells for heading in headings(cell, 2)]
@@ -495,6 +501,10 @@ BREAKING = {
     "another number": (replace("# 99 -", "# 98 -"), "the first line is the title"),
     "no verb": (replace("# 99 - ", "# 99 - The"), "the first line is the title"),
     "two titles": (replace(f"## {OPEN}", f"# {OPEN}"), "one first-level heading"),
+    "extra not named": (
+        lambda nb: first(nb, is_code).update(source="box = rb.box('viaduct36_identified')"),
+        "an extra says so below its title",
+    ),
     "no question": (
         lambda nb: nb.cells[0].update(source=nb.cells[0].source.replace("?", ".")),
         "the question",

@@ -121,7 +121,7 @@ def test_vertical_rows_of_table_4(numbers):
 
 
 def test_signs_of_the_lateral_reactions(numbers):
-    """A convention turns both or none: opposite in print and in the guess, alike in ours."""
+    """A convention turns both or none: printed and in the guess opposite, in ours alike."""
     rows = "Y-reaction in node 1", "Y-reaction in node 2"
     product = [paper.TABLE4[row][1] for row in rows]
     assert product[0] * product[1] < 0
@@ -134,7 +134,7 @@ def test_signs_of_the_lateral_reactions(numbers):
 
 
 def test_torsion_has_a_candidate_and_no_explanation():
-    """A quarter of the span encloses the printed -1222.5 kN m; its change nothing meets."""
+    """At a quarter of the span values enclose the printed -1222.5 kN m, its change none meets."""
     expected = {
         ("paper", "condensed"): (-1327.5, -1321.6),
         ("l37.5", "condensed"): (-1307.7, -1303.0),

@@ -3,9 +3,9 @@
 from .beam import Beam
 from .bearings import FIXITIES, Bearing, on_deck
 from .mesh import BeamModes
-from .properties import BeamProperties, Section, checked_spans
+from .properties import BeamProperties, Section, checked_spans, span_ends
 
 __all__ = [
     "FIXITIES", "Beam", "BeamModes", "BeamProperties", "Bearing", "Section", "checked_spans",
-    "on_deck",
+    "on_deck", "span_ends",
 ]  # fmt: skip

@@ -8,11 +8,11 @@ from functools import cached_property
 import numpy as np
 
 from .. import errors
-from ..decks import Deck, checked_damping, damping_ratios
-from ..errors import InputError, Remark
+from ..decks import Deck, checked_damping, cut_group, damping_ratios
+from ..errors import InputError, Remark, brief
 from .influence import BeamRecovery
 from .mesh import DENSE, BeamModes, Mesh
-from .properties import BeamProperties
+from .properties import BeamProperties, span_ends
 from .selection import left_out, needed
 
 __all__ = ["Beam"]
@@ -22,6 +22,8 @@ __all__ = ["Beam"]
 class Beam(BeamProperties):  # noqa: D101
     # What its fields mean is written once, and read by whoever asks for help on a beam.
     __doc__ = BeamProperties.__doc__
+
+    __repr__ = brief
 
     @cached_property
     def mesh(self) -> Mesh:
@@ -72,6 +74,7 @@ class Beam(BeamProperties):  # noqa: D101
         """
         damping = checked_damping(damping)
         natural, kept = self._chosen() if modes is None else self._lowest(modes)
+        tracks = {} if tracks is None else errors.table("tracks", tracks)
         frequencies, vectors = natural.frequencies_hz[kept], natural.vectors[:, kept]
         recovery = BeamRecovery(self.mesh, frequencies, vectors)
         return Deck(
@@ -84,12 +87,12 @@ class Beam(BeamProperties):  # noqa: D101
             supports=tuple(sorted({b.x for b in self.bearings})),
             bearings=tuple((b.x, b.y, b.z) for b in self.bearings),
             recovery=recovery,
-            tracks=tracks or {},
+            tracks=tracks,
             width=width,
             track_height=track_height,
             mass_per_metre=self.mass,
             internal_damping=0.0 if np.isscalar(damping) else float(damping[1]),
-            remarks=() if modes is None else tuple(self._left_out(recovery, frequencies)),
+            remarks=(*self.remarks, *self._left_out(modes, natural, recovery)),
         )
 
     def _chosen(self) -> tuple[BeamModes, list[int]]:
@@ -120,6 +123,12 @@ class Beam(BeamProperties):  # noqa: D101
             raise InputError("modes", modes, allowed, f"{first}, or leave modes out")
         return natural, excitable[:wanted]
 
-    def _left_out(self, recovery: BeamRecovery, frequencies: np.ndarray) -> list[Remark]:
-        edges = np.concatenate([[0.0], np.cumsum(self.spans)])
-        return left_out(recovery, frequencies, (edges[1:] + edges[:-1]) / 2)
+    def _left_out(
+        self, modes: int | None, natural: BeamModes, recovery: BeamRecovery
+    ) -> list[Remark]:
+        """Return what a given number of modes costs; a chosen one costs nothing worth a remark."""
+        if modes is None:
+            return []
+        known, edges = natural.frequencies_hz[natural.excitable], span_ends(self.spans)
+        found = cut_group("modes", known, modes)
+        return found + left_out(recovery, known[:modes], (edges[1:] + edges[:-1]) / 2)

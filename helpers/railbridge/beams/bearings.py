@@ -33,8 +33,6 @@ _SPRING_REMEDY = "Put what does not give into fixed"
 STIFFEST = 1e16
 """N/m and N m/rad: beyond this a spring would cost the modes their digits."""
 _TINY = 1e-9
-_SLACK = 1e-6
-"""Share of the deck's length by which a bearing may miss the end of a span: rounding."""
 
 
 @dataclass(frozen=True)
@@ -146,12 +144,8 @@ def on_deck(x: float, ends: np.ndarray) -> float:
     InputError
         Off the deck.
     """
-    length, remedy = float(ends[-1]), "It must lie on the deck, x runs along it from its start"
-    x = errors.number("x", x, unit="m", remedy=remedy)
-    nearest = float(ends[np.argmin(np.abs(ends - x))])
-    if abs(nearest - x) <= _SLACK * length:
-        return nearest
-    return errors.number("x", x, least=0.0, most=length, unit="m", remedy=remedy)
+    remedy = "It must lie on the deck, x runs along it from its start"
+    return errors.place("x", x, ends, slack=errors.ROUNDED, remedy=remedy)
 
 
 def null_space(rows: np.ndarray) -> np.ndarray:

@@ -109,9 +109,7 @@ class BeamRecovery:
         stiffness for it.
         """
         errors.choice("quantity", quantity, SECTION_QUANTITIES)
-        x = errors.number(
-            "x", x, least=0.0, most=self.beam.length, unit="m", remedy="x runs along the deck"
-        )
+        x = errors.place("x", x, (0.0, self.beam.length), remedy="x runs along the deck")
         return self._cached((quantity, float(x)), self._section_line, quantity, x)
 
     def reaction(self, quantity: str, support: float) -> Line | None:

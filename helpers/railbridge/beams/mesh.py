@@ -16,12 +16,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import eigh
+from scipy.linalg import LinAlgError, eigh
 from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.csgraph import connected_components
-from scipy.sparse.linalg import SuperLU
+from scipy.sparse.linalg import ArpackError, SuperLU
 
+from ..errors import InputError, brief
 from ..guideways import PiecewiseCubic
+from ..settings import refuse_bytes
 from . import elements
 from .bearings import null_space
 from .eigen import count_below, factorised, lowest
@@ -42,6 +44,7 @@ MIXED = (0.25, 0.75)
 """Share of axial kinetic energy between which a mode is called axial-bending."""
 DENSE = 400
 """Coupled freedoms up to which all modes together cost no more than the few that are needed."""
+_FULL_MATRICES = 6  # that stand in memory together while all modes are found
 _SPARE = 6  # modes beyond those needed, among which a gap is sought
 
 
@@ -64,6 +67,8 @@ class BeamModes:
     energies : dict of ndarray, shape (m,)
         Share of the kinetic energy in each field.
     """
+
+    __repr__ = brief
 
     frequencies_hz: np.ndarray
     names: tuple[str, ...]
@@ -297,11 +302,28 @@ class Mesh:
         groups = [np.flatnonzero(group == g) for g in range(count)]
         asked = wanted
         while True:
-            modes = self._modes_of(groups, *_solved(k, m, groups, asked))
+            try:
+                solved, order = _solved(k, m, groups, asked)
+            except (LinAlgError, ArpackError, RuntimeError):  # a matrix is singular to round-off
+                raise self._ill_scaled() from None
+            modes = self._modes_of(groups, solved, order)
+            vectors = modes.vectors[:, : 2 * (wanted or 10)]
+            # Without round-off the energies of a mode give its frequency again.
+            squares = (2 * np.pi * modes.frequencies_hz[: vectors.shape[1]]) ** 2
+            again = np.sum(vectors * (self.stiffness @ vectors), axis=0)
+            if not np.all(np.abs(again - squares) <= 1e-3 * squares):
+                raise self._ill_scaled()
             enough = wanted is None or len(modes.names) == k.shape[0]
             if enough or int(np.sum(modes.excitable)) >= wanted:
                 return modes
             asked *= 2
+
+    def _ill_scaled(self) -> InputError:
+        allowed = "is so far from the deck's mass, other stiffnesses and springs that round-off "
+        allowed += "spoils its modes"
+        given = self.beam.bending_stiffness_vertical
+        remedy = "Check the units of all of them: N m2, N, N/m, kg/m"
+        return InputError("bending_stiffness_vertical", given, allowed, remedy)
 
     def _modes_of(
         self,
@@ -318,7 +340,8 @@ class Mesh:
             own = np.flatnonzero(whose[order] == g)
             vectors[:, own] = self.basis[:, freedoms] @ shapes[:, order[own] - firsts[g]]
         energies = self._energies(vectors)
-        frequencies = np.sqrt(squares[order]) / (2 * np.pi)
+        with np.errstate(invalid="ignore"):  # NaN where round-off made a square negative
+            frequencies = np.sqrt(squares[order]) / (2 * np.pi)
         return BeamModes(frequencies, _names(energies), _signed(vectors), energies)
 
     def _energies(self, vectors: np.ndarray) -> dict[str, np.ndarray]:
@@ -365,7 +388,7 @@ def _solved(
     for freedoms in groups:
         own_k, own_m = k[freedoms][:, freedoms], m[freedoms][:, freedoms]
         if count is None:
-            squares, shapes = eigh(own_k.toarray(), own_m.toarray())
+            squares, shapes = _all_of(own_k, own_m)
         else:
             squares, shapes = _lowest_of(own_k, own_m, count)
         if len(squares) < len(freedoms):  # above its last mode nothing of this group is known
@@ -389,6 +412,15 @@ def _lowest_of(k: csr_array, m: csr_array, wanted: int) -> tuple[np.ndarray, np.
         last = wanted + int(np.argmax(squares[wanted:] / squares[wanted - 1 : -1]))
         if count_below(k, m, float(np.sqrt(squares[last - 1] * squares[last]))) == last:
             return squares[:last], shapes[:, :last]
+    return _all_of(k, m)
+
+
+def _all_of(k: csr_array, m: csr_array) -> tuple[np.ndarray, np.ndarray]:
+    """Return omega^2 and shapes of all modes of a group of freedoms, if they fit into memory."""
+    size = k.shape[0]
+    needed = 8.0 * _FULL_MATRICES * size**2
+    remedy = "Use fewer modes, elements or bearings"
+    refuse_bytes("modes", None, needed, f"all modes of {size} coupled freedoms", remedy)
     return eigh(k.toarray(), m.toarray())
 
 

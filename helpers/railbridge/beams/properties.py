@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,11 +11,13 @@ from typing import Annotated
 import numpy as np
 
 from .. import errors
-from ..errors import InputError, Range, check_fields, within
+from ..bounds import BOUNDS, doubt, material, soft_bearing
+from ..errors import InputError, InputWarning, Range, brief, check_fields, within
+from ..units import G
 from .bearings import FARTHEST, Bearing, free_motions, on_deck
 from .elements import FIELDS
 
-__all__ = ["BeamProperties", "Section", "checked_spans"]
+__all__ = ["BeamProperties", "Section", "checked_spans", "span_ends"]
 
 _SHORTEST = 1e-3
 """Shortest span or distance of bearings as a share of the length.
@@ -41,6 +44,14 @@ def checked_spans(spans: Sequence[float]) -> tuple[float, ...]:
     if not 1 <= len(found) <= 30:
         raise InputError("spans", list(spans), "must hold 1 to 30 spans")
     return tuple(found.tolist())
+
+
+def span_ends(spans: Sequence[float]) -> np.ndarray:
+    """Return the places where spans end, m, from 0.
+
+    Each sum is rounded once, so that 12.1, 12.2 and 12.3 m end at 36.6.
+    """
+    return np.array([math.fsum(spans[:count]) for count in range(len(spans) + 1)])
 
 
 @dataclass(frozen=True)
@@ -81,6 +92,24 @@ class Section:
 
     def __post_init__(self) -> None:
         check_fields(self)
+
+    @property
+    def remarks(self) -> tuple[InputWarning, ...]:
+        """What is unlikely to be meant about the section, for `Deck.remarks`."""
+        moments = self.second_moment_vertical, self.second_moment_lateral
+        found = material(self.youngs_modulus, self.density)
+        found += doubt("area", "area", self.area)
+        found += doubt("second_moment", "second_moment_vertical", moments[0])
+        found += doubt("second_moment", "second_moment_lateral", moments[1])
+        if not found and self.torsion_constant > sum(moments):
+            text = f"= {self.torsion_constant:g} m4 is more than I_y + I_z, which no section has: "
+            found.append(InputWarning("torsion_constant", text + "given in another unit?"))
+        for direction in ("vertical", "lateral"):
+            shear = getattr(self, f"shear_area_{direction}")
+            if not found and shear is not None and shear > self.area:
+                text = f"= {shear:g} m2 is more than the area, {self.area:g} m2: given in cm2?"
+                found.append(InputWarning(f"shear_area_{direction}", text))
+        return tuple(found)
 
     def of_beam(self, rotary_inertia: bool = False) -> dict[str, float]:
         """Return what a `Beam` needs to know: mass, stiffnesses and inertias, SI, by its names.
@@ -160,6 +189,8 @@ class BeamProperties:
         beam that can move as a rigid body.
     """
 
+    __repr__ = brief
+
     name: str
     spans: Annotated[tuple[float, ...], Range(above=0.0, unit="m")]
     mass: Annotated[float, Range(above=0.0, unit="kg/m")]
@@ -195,7 +226,7 @@ class BeamProperties:
     @property
     def length(self) -> float:
         """Total length, m."""
-        return float(sum(self.spans))
+        return float(self._span_ends[-1])
 
     @property
     def fields(self) -> tuple[str, ...]:
@@ -211,7 +242,7 @@ class BeamProperties:
     @property
     def joints(self) -> tuple[float, ...]:
         """Places where simple spans meet, m; none in a continuous deck."""
-        return () if self.continuous else tuple(np.cumsum(self.spans)[:-1].tolist())
+        return () if self.continuous else tuple(self._span_ends[1:-1].tolist())
 
     def piece(self, bearing: Bearing) -> int:
         """Return which simple span (from 0) a bearing carries; 0 in a continuous deck."""
@@ -254,12 +285,60 @@ class BeamProperties:
 
     @cached_property
     def _span_ends(self) -> np.ndarray:
-        return np.concatenate([[0.0], np.cumsum(self.spans)])
+        return span_ends(self.spans)
+
+    @property
+    def remarks(self) -> tuple[InputWarning, ...]:
+        """What is unlikely to be meant, that a deck made of it does not show; `Deck.remarks`."""
+        found = doubt("mass", "mass", self.mass)
+        if found:  # the radii below follow from it
+            return tuple(found)
+        for name, bound in (
+            ("polar_inertia", "polar_radius"),
+            ("rotary_inertia_vertical", "bending_radius"),
+            ("rotary_inertia_lateral", "polar_radius"),
+        ):
+            inertia = getattr(self, name)
+            if inertia is not None:
+                found += self._odd_radius(name, bound, inertia / self.mass, "t m")
+        if self.axial_stiffness is not None:
+            square = self.bending_stiffness_vertical / self.axial_stiffness
+            found += self._odd_radius("axial_stiffness", "bending_radius", square, "kN")
+        for name in ("vertical", "lateral"):
+            found += self._odd_shear(name)
+        found += doubt("height", "centroid_height", self.centroid_height)
+        held = sum("z" in b.restrained for b in self.bearings)
+        for i, bearing in enumerate(self.bearings, start=1):
+            for direction, spring in bearing.stiffness.items():
+                weight = self.mass * self.length * G / max(held, 1)
+                field = f"bearings[{i}].stiffness.{direction}"
+                found += soft_bearing(field, direction, spring, weight)
+            found += doubt("height", f"bearings[{i}].z", bearing.z)
+        return tuple(found)
+
+    def _odd_radius(self, name: str, bound: str, square: float, unit: str) -> list[InputWarning]:
+        """Doubt a value that gives a section an odd radius of gyration, squared (m2)."""
+        radius, usual = float(np.sqrt(square)), BOUNDS[bound]
+        # A section is not a third of its span deep.
+        most = min(usual.high, max(self.spans) / 6) if name == "axial_stiffness" else usual.high
+        if usual.low <= radius <= most:
+            return []
+        text = f"= {getattr(self, name):g} gives a radius of gyration of {radius:.3g} m, usual is "
+        return [InputWarning(name, f"{text}{usual.range}: given in {unit}?")]
+
+    def _odd_shear(self, name: str) -> list[InputWarning]:
+        share = self.shear_flexibility(name) / max(self.spans) ** 2
+        if share <= BOUNDS["shear_share"].high:
+            return []
+        field = f"shear_stiffness_{name}"
+        text = f"= {getattr(self, field):g} N makes the deck give way in shear {share * 10:.2g} "
+        return [InputWarning(field, text + "times as much as in bending: given in kN?")]
 
     def _placed_bearings(self) -> tuple[Bearing, ...]:
         """Return the given or usual bearings, one under each span where simple spans meet."""
         placed: dict[tuple, Bearing] = {}
-        for i, given in enumerate(self.bearings or self._usual_bearings(), start=1):
+        own = errors.instances("bearings", self.bearings, Bearing)
+        for i, given in enumerate(own or self._usual_bearings(), start=1):
             with within(f"bearings[{i}]"):
                 bearing = replace(given, x=on_deck(given.x, self._span_ends))
                 self._refuse_missing_stiffness(bearing)

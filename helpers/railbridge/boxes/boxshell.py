@@ -12,12 +12,13 @@ from typing import Annotated
 import numpy as np
 
 from ..errors import Range, check_fields
+from ..settings import MEMORY_LIMIT, refuse_bytes
 from .dimensions import BoxDimensions
 from .pads import Pad
 from .plates import Plate, Strip
-from .shell import Shell
+from .shell import Shell, shell_bytes
 
-__all__ = ["BoxMesh", "shell_of"]
+__all__ = ["BoxMesh", "node_count", "shell_of"]
 
 _JOINS_NOTHING = "A web without elements across joins nothing"
 
@@ -64,6 +65,7 @@ def shell_of(box: BoxDimensions, mesh: BoxMesh) -> Shell:
     `Strip.counted`). At the bottom corners what is counted twice and what is left out are equal.
     What mass is still missing beside the drawing lies on the webs' heads.
     """
+    _refuse_size(box, mesh)
     web, edge = box.web_spacing / 2, box.slab_width / 2
     y = np.concatenate(
         [
@@ -123,6 +125,31 @@ def shell_of(box: BoxDimensions, mesh: BoxMesh) -> Shell:
     missing = box.concrete_mass + box.track_mass - shell.mass_per_metre
     masses = dict.fromkeys(heads, missing / 2) | dict.fromkeys((0, len(y) - 1), box.edge_mass / 2)
     return replace(shell, line_masses=masses)
+
+
+def _refuse_size(box: BoxDimensions, mesh: BoxMesh) -> None:
+    """Refuse a mesh that would not fit into memory, by the number of elements that is largest."""
+    usual = BoxMesh()
+    size = node_count(box, mesh)
+    needed = shell_bytes(6 * size, 15)
+    if needed <= MEMORY_LIMIT:
+        return
+    # What has too many spans or diaphragms is no fault of the mesh.
+    if shell_bytes(6 * node_count(box, usual), 15) > MEMORY_LIMIT:
+        inner, lines = box.inner_diaphragms * len(box.spans), len(box.bearings)
+        field = "inner_diaphragms" if inner > lines else "bearings"
+        value, remedy = box.inner_diaphragms if inner > lines else lines, "Use fewer"
+    else:
+        field = max(vars(mesh), key=lambda name: getattr(mesh, name) / getattr(usual, name))
+        value, remedy, field = getattr(mesh, field), "Use fewer elements", f"mesh.{field}"
+    refuse_bytes(field, value, needed, f"gives the shell {size} nodes, which", remedy)
+
+
+def node_count(box: BoxDimensions, mesh: BoxMesh) -> int:
+    """Return how many nodes the shell of a box has."""
+    points = 2 * mesh.cantilever + 2 * mesh.slab + 2 * (mesh.web + 1)
+    inner = mesh.web * (mesh.slab - 1) * len(_diaphragm_places(box))
+    return points * len(_stations(box, mesh)) + inner
 
 
 def _stations(box: BoxDimensions, mesh: BoxMesh) -> np.ndarray:

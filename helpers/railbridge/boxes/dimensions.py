@@ -14,15 +14,17 @@ from typing import Annotated, Literal
 import numpy as np
 
 from .. import errors
-from ..beams import checked_spans, on_deck
-from ..errors import InputError, Range, check_fields, within
+from ..beams import checked_spans, on_deck, span_ends
+from ..bounds import doubt, material, soft_bearing
+from ..errors import InputError, InputWarning, Range, brief, check_fields, within
+from ..units import G
 from .pads import DIRECTIONS, STIFFEST
 from .section import refuse_crossing
 
 __all__ = ["BoxDimensions", "Pads"]
 
 _Width = Annotated[float, Range(above=0.0, most=100.0, unit="m")]
-_Thickness = Annotated[float, Range(above=0.0, most=10.0, unit="m")]
+_Thickness = Annotated[float, Range(least=1e-4, most=10.0, unit="m")]
 
 
 @dataclass(frozen=True)
@@ -138,6 +140,8 @@ class BoxDimensions:
         the deck.
     """
 
+    __repr__ = brief
+
     name: str
     spans: tuple[float, ...]
     slab_width: _Width
@@ -191,24 +195,31 @@ class BoxDimensions:
         object.__setattr__(self, "bearings", tuple(placed))
         half = self.slab_width / 2
         for key, y in errors.table("tracks", self.tracks).items():
-            errors.number(f"tracks.{key}", y, least=-half, most=half, unit="m")
+            errors.place(f"tracks.{key}", y, (-half, half))
 
     # ---- geometry
 
     @property
     def length(self) -> float:
         """Between the outer bearing lines, m."""
-        return float(sum(self.spans))
+        return float(self.span_ends[-1])
 
     @cached_property
     def span_ends(self) -> np.ndarray:
         """Places where spans end, m, from 0."""
-        return np.concatenate([[0.0], np.cumsum(self.spans)])
+        return span_ends(self.spans)
 
     @property
     def head_thickness(self) -> float:
         """Of the slab just inside the webs, m."""
         return max(self.slab_thickness, self.root_thickness)
+
+    @property
+    def thinnest(self) -> tuple[str, float]:
+        """Name and thickness (m) of the section's thinnest plate."""
+        names = ("slab", "root", "edge", "web", "bottom")
+        found = {f"{name}_thickness": getattr(self, f"{name}_thickness") for name in names}
+        return min(found.items(), key=lambda item: item[1])
 
     @property
     def _lean(self) -> float:
@@ -304,6 +315,24 @@ class BoxDimensions:
         if self.root_thickness > self.slab_thickness and knee < top - 1e-6:
             corners.append((knee, self.depth - self.slab_thickness))
         return np.array(corners + [(-y, z) for y, z in reversed(corners)])
+
+    # ---- doubts
+
+    @property
+    def remarks(self) -> tuple[InputWarning, ...]:
+        """What is unlikely to be meant, that a deck made of it does not show; `Deck.remarks`."""
+        found = material(self.youngs_modulus, self.density)
+        for name in ("track_mass", "edge_mass"):
+            carried = getattr(self, name)
+            if carried:
+                found += doubt("track_mass", name, carried)
+        held = sum(len(p.sides) for p in self.bearings if "z" in (*p.fixed, *p.stiffness))
+        for i, line in enumerate(self.bearings, start=1):
+            for direction, spring in line.stiffness.items():
+                weight = self.mass_per_metre * self.length * G / max(held, 1)
+                field = f"bearings[{i}].stiffness.{direction}"
+                found += soft_bearing(field, direction, spring, weight)
+        return tuple(found)
 
     # ---- mass
 

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 from ..beams import Beam, Bearing
 from ..decks import Deck, checked_damping, damping_ratios
+from ..errors import InputError, ResultWarning, brief
 from .boxshell import BoxMesh, shell_of
 from .dimensions import BoxDimensions
-from .section import SectionProperties, section_properties
+from .section import (
+    MOST_TRIANGLES,
+    SectionProperties,
+    section_properties,
+    triangles_needed,
+)
 from .shell import Shell
 
 __all__ = ["Box"]
@@ -21,11 +27,27 @@ class Box(BoxDimensions):  # noqa: D101
     # What its fields mean is written once, and read by whoever asks for help on a box.
     __doc__ = BoxDimensions.__doc__
 
+    __repr__ = brief
+
     # ---- section and beam
 
     @cached_property
     def section(self) -> SectionProperties:
-        """Properties of the concrete section, by finite elements over it; needs the extra `fem`."""
+        """Properties of the concrete section, by finite elements over it; needs the extra `fem`.
+
+        Raises
+        ------
+        InputError
+            A plate too thin to be filled with triangles.
+        """
+        needed = triangles_needed(self.outline, (self.hole,))
+        if needed > MOST_TRIANGLES:
+            field, thickness = self.thinnest
+            allowed = (
+                f"is so thin that about {needed:.2g} triangles would be needed for the section"
+            )
+            remedy = "Give it in m, or use the shell"
+            raise InputError(field, thickness, f"{allowed}, at most {MOST_TRIANGLES}", remedy)
         return section_properties(self.outline, (self.hole,), self.poisson_ratio)
 
     def beam(
@@ -113,9 +135,11 @@ class Box(BoxDimensions):  # noqa: D101
         See `beam` for the switches.
         """
         height = self.depth - self.section.shear_centre[1]
-        return self.beam(**switches).deck(
+        made = self.beam(**switches).deck(
             modes, damping, dict(self.tracks), self.slab_width, height
         )
+        left_out = [remark for remark in made.remarks if isinstance(remark, ResultWarning)]
+        return replace(made, remarks=(*self.remarks, *left_out))
 
     # ---- shell
 
@@ -154,6 +178,7 @@ class Box(BoxDimensions):  # noqa: D101
             width=self.slab_width,
             track_height=self.head_thickness / 2,
             mass_per_metre=self.mass_per_metre,
+            remarks=self.remarks,
         )
 
     def convergence(self, factors: tuple[float, ...] = (0.5, 1.0, 1.5, 2.0), modes: int = 15):

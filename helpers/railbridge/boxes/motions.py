@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..errors import brief
 from .plates import PlateModel
 
 __all__ = ["KINDS", "ShellModes", "described", "section_motions", "sectionwise"]
@@ -50,6 +51,8 @@ class ShellModes:
     vectors : ndarray, shape (nodes, 6, m)
         All displacements and rotations, mass-normalised.
     """
+
+    __repr__ = brief
 
     frequencies_hz: np.ndarray
     names: tuple[str, ...]

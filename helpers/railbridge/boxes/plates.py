@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
-from ..errors import InputError
+from ..errors import InputError, brief
 
 __all__ = ["Plate", "PlateModel", "Strip", "freedoms_of"]
 
@@ -59,6 +59,8 @@ class Plate:
     points : ndarray, shape (rows, columns, 2)
         y and z of its grid, m. The outer rows and columns must be points of the section.
     """
+
+    __repr__ = brief
 
     x: float
     thickness: float
@@ -131,6 +133,8 @@ class PlateModel:
     line_masses : dict of float
         Mass per metre (kg/m) carried at a point of the section.
     """
+
+    __repr__ = brief
 
     points: np.ndarray
     strips: tuple[Strip, ...]

@@ -13,9 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import errors
-from ..errors import InputError
+from ..errors import InputError, brief
 
-__all__ = ["SectionProperties", "refuse_crossing", "section_properties"]
+__all__ = ["SectionProperties", "refuse_crossing", "section_properties", "triangles_needed"]
+
+MOST_TRIANGLES = 10_000
+"""Of a section's mesh: ten seconds and up to 1 GB."""
+MOST_CORNERS = 500
 
 
 @dataclass(frozen=True)
@@ -38,6 +42,8 @@ class SectionProperties:
     centroid, shear_centre : tuple of (y, z)
         m, in the axes of the outline.
     """
+
+    __repr__ = brief
 
     area: float
     second_moment_vertical: float
@@ -121,6 +127,7 @@ def section_properties(
         if largest is None
         else errors.number("largest", largest, above=0.0, most=area, unit="m2")
     )
+    _refuse_size(outline, holes, area / largest)
     geometry.create_mesh([largest])
     section = Section(geometry)
     section.calculate_geometric_properties()
@@ -140,6 +147,48 @@ def section_properties(
     )
 
 
+def triangles_needed(outline: np.ndarray, holes: tuple[np.ndarray, ...] = ()) -> float:
+    """Return about how many triangles of good shape fill a section, those of thin parts.
+
+    A triangle in a plate is about as long as the plate is thick: their number is the integral of
+    the reciprocal distance to what lies opposite, along all edges. Within a factor of 1.6 above
+    what the mesher makes of box girders with plates from 0.2 mm to 0.2 m.
+    """
+    lines = (np.asarray(outline, dtype=float), *holes)
+    start = np.concatenate(lines)
+    end = np.concatenate([np.roll(line, -1, axis=0) for line in lines])
+    along = end - start
+    length = np.hypot(*along.T)
+    share = (np.arange(64) + 0.5) / 64
+    count = 0.0
+    for a, b, own in zip(start, end, length, strict=True):
+        # The edges before and after meet this one: a corner is not a thin place.
+        others = ~np.any(
+            [np.all(p == q, axis=1) for p in (a, b) for q in (start, end)], axis=0
+        )  # fmt: skip
+        if not others.any():
+            continue
+        points = a + share[:, None] * (b - a)
+        there = points[:, None] - start[others]
+        foot = np.sum(there * along[others], axis=2) / length[others] ** 2
+        apart = there - np.clip(foot, 0.0, 1.0)[..., None] * along[others]
+        nearest = np.hypot(apart[..., 0], apart[..., 1]).min(axis=1)
+        count += own * float(np.mean(1.0 / np.maximum(nearest, 1e-300)))
+    return count
+
+
+def _refuse_size(outline: np.ndarray, holes: tuple[np.ndarray, ...], asked: float) -> None:
+    """Refuse a mesh that would take minutes and all memory, before it is made."""
+    if asked > MOST_TRIANGLES:
+        allowed = f"asks for about {asked:.2g} triangles, must be at most {MOST_TRIANGLES}"
+        raise InputError("largest", None, allowed, "Leave it out to have it chosen")
+    needed = triangles_needed(outline, holes)
+    if needed > MOST_TRIANGLES:
+        allowed = f"has parts so thin that about {needed:.2g} triangles would be needed"
+        allowed += f", must be at most {MOST_TRIANGLES}"
+        raise InputError("outline", None, allowed, "Is a thickness in the wrong unit?")
+
+
 def _corners(field: str, corners) -> np.ndarray:
     """Return corners as an array after checks."""
     try:
@@ -153,6 +202,9 @@ def _corners(field: str, corners) -> np.ndarray:
         or not np.isfinite(result).all()
     ):
         raise InputError(field, corners, "must list at least three corners (y, z) in m")
+    if len(result) > MOST_CORNERS:
+        allowed = f"must list at most {MOST_CORNERS} corners"
+        raise InputError(field, len(result), allowed, "Fewer show a curve just as well")
     refuse_crossing(field, result)
     return result
 
@@ -162,7 +214,7 @@ def refuse_crossing(field: str, outline: np.ndarray) -> None:
     a, b = outline, np.roll(outline, -1, axis=0)
     count = len(outline)
     for i in range(count):
-        if np.allclose(a[i], b[i], atol=1e-12):
+        if np.allclose(a[i], b[i], rtol=0.0, atol=1e-12):
             raise InputError(
                 field, outline[i], "corner is given twice in a row", "Remove one of them"
             )

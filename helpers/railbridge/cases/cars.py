@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from .. import errors
-from ..errors import Range, within
+from ..errors import InputError, Range, within
 from ..vehicles import Body, Spring, Vehicle
 
-__all__ = ["CAR_PARAMETERS", "planar_car", "sprung_mass", "two_bogie_car"]
+__all__ = [
+    "CAR_PARAMETERS", "OPTIONAL_PARAMETERS", "planar_car", "sprung_mass", "two_bogie_car",
+]  # fmt: skip
 
 _MASS, _INERTIA = Range(above=0.0, unit="kg"), Range(above=0.0, unit="kg m2")
 _STIFFNESS, _DAMPING = Range(least=0.0, unit="N/m"), Range(least=0.0, unit="N s/m")
@@ -25,8 +27,11 @@ CAR_PARAMETERS = {
     "length": _LENGTH, "bogie_spacing": _LENGTH, "axle_spacing": _LENGTH,
     "car_body_above_secondary": _HEIGHT, "secondary_above_bogie": _HEIGHT,
     "primary_below_bogie": _HEIGHT, "primary_half_width": _LENGTH, "secondary_half_width": _LENGTH,
+    "wheelset_mass": Range(least=0.0, unit="kg"),
 }  # fmt: skip
 """Names of a two-bogie car's parameters (Table 1) and what each may be, with its SI unit."""
+OPTIONAL_PARAMETERS = ("length", "wheelset_mass")
+"""Those that may be left out."""
 
 
 def two_bogie_car(name: str, **parameters: float) -> Vehicle:
@@ -36,19 +41,26 @@ def two_bogie_car(name: str, **parameters: float) -> Vehicle:
     ----------
     name : str
     **parameters : float
-        All of `CAR_PARAMETERS`, SI. Stiffness and damping are per spring: each bogie has two
-        secondary springs (left and right), each axle two primary springs.
+        All of `CAR_PARAMETERS`, SI; ``length`` may be left out where trains are given their car
+        spacing, ``wheelset_mass`` where it is neglected. Stiffness and damping are per spring: each
+        bogie has two secondary springs (left and right), each axle two primary springs.
 
     Notes
     -----
     The paper gives no height above the rail. The primary springs are placed at rail level, so that
     the lateral wheel force acts there (no couple F_y times height on the deck).
     """
-    with within(source=f"vehicle {name}"):
-        errors.keys("", parameters, CAR_PARAMETERS, CAR_PARAMETERS)
+    with within(source=f"vehicle {errors.text('name', name)}"):
+        needed = [key for key in CAR_PARAMETERS if key not in OPTIONAL_PARAMETERS]
+        errors.keys("", parameters, CAR_PARAMETERS, needed)
         p = {key: CAR_PARAMETERS[key].checked(key, value) for key, value in parameters.items()}
     bogie_z = p["primary_below_bogie"]
     secondary_z = bogie_z + p["secondary_above_bogie"]
+    if p["axle_spacing"] >= p["bogie_spacing"]:
+        allowed = f"must be below bogie_spacing, {p['bogie_spacing']:g} m: bogies overlap"
+        remedy = "It is the distance of the two axles of a bogie, in m"
+        source = f"vehicle {name}"
+        raise InputError("axle_spacing", p["axle_spacing"], allowed, remedy, source)
     inertia = {
         body: tuple(p[f"{body}_{rotation}_inertia"] for rotation in ("roll", "pitch", "yaw"))
         for body in ("car_body", "bogie")
@@ -74,7 +86,8 @@ def two_bogie_car(name: str, **parameters: float) -> Vehicle:
             for side in (1.0, -1.0):
                 at = (x + axle * p["axle_spacing"] / 2, side * p["primary_half_width"], 0.0)
                 springs.append(suspension("primary", bogie, "rail", at))
-    return Vehicle(name, tuple(bodies), tuple(springs), p["length"])
+    length, wheelset = p.get("length"), p.get("wheelset_mass", 0.0)
+    return Vehicle(name, tuple(bodies), tuple(springs), length, wheelset)
 
 
 def sprung_mass(
@@ -91,6 +104,7 @@ def planar_car(car: Vehicle) -> Vehicle:
 
     Left and right springs are put together; those that are lateral only are left out.
     """
+    errors.instance("car", car, Vehicle)
     bodies = tuple(
         replace(b, freedoms=tuple(f for f in b.freedoms if f in ("z", "pitch"))) for b in car.bodies
     )

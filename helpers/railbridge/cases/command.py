@@ -1,8 +1,9 @@
 """The command ``railbridge``: case files in, results out.
 
 Exit codes: 0 all is well; 1 the computer failed (disk, memory); 2 the case file or a path is wrong,
-with one line that names the key; 3 the iteration did not converge or settle, results written all
-the same; 130 interrupted, nothing half-written.
+with one line that names the key, or a value is doubted and ``--strict`` given; 3 the iteration did
+not converge or settle, results written all the same; 130 interrupted (128 and its number for other
+signals), nothing half-written.
 """
 
 from __future__ import annotations
@@ -11,25 +12,22 @@ import argparse
 import json
 import os
 import shlex
-import shutil
 import sys
-import tempfile
 import time
 import tomllib
 import warnings
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn, TextIO
 
 import numpy as np
 
 from ..crossing import NotConvergedError
-from ..errors import InputError
+from ..errors import InputError, InputWarning, Remark, ResultWarning, printable
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
-from . import copies, pages, shelf
+from . import copies, pages, shelf, staging
 from .definition import Case, case
 from .summary import histories, to_json
 
@@ -66,27 +64,42 @@ results (in the folder of --out; files of these names in it are replaced):
   The first column of every CSV file is t, in s; the names of the others end with their unit.
 
 exit codes:
-  0 done    1 out of memory or disk    2 bad case file or path
-  3 not converged, or not settled by run.iterations (results are written)    130 interrupted
+  0 done    1 out of memory or disk    2 bad case file or path, or doubts with --strict
+  3 not converged, or not settled by run.iterations (results are written)
+  130 interrupted    143 stopped
 """
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code."""
+    try:
+        _open_streams()
+        with staging.stopping():
+            return _guarded(arguments)
+    except KeyboardInterrupt:
+        _say("interrupted; nothing was written")
+        return 130
+    except staging.Stopped as stopped:
+        _say("stopped; nothing was written")
+        return 128 + stopped.number
+
+
+def _guarded(arguments: Sequence[str] | None) -> int:
+    """Run the command; say in one line what went wrong."""
     given = _parser().parse_args(arguments)
     try:
         with np.errstate(all="ignore"), warnings.catch_warnings():
             warnings.simplefilter("once")
             warnings.simplefilter("ignore", RuntimeWarning)
             warnings.showwarning = lambda message, *_, **__: _say(f"warning: {message}")
-            return given.command(given)
+            code = given.command(given)
+            sys.stdout.flush()
+            return code
     except InputError as error:
         _say(str(error))
         return 2
-    except KeyboardInterrupt:
-        _say("interrupted; nothing was written")
-        return 130
     except BrokenPipeError:
+        sys.stdout = _nowhere()  # what is left in it would complain once more at the end
         return 1
     except MemoryError:
         _say(
@@ -96,11 +109,45 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     except OSError as error:
         _say(f"{error.filename or 'the output'}: {error.strerror or error}")
+        if not error.filename:
+            sys.stdout = _nowhere()
         return 1
 
 
+def _open_streams() -> None:
+    """Give the program somewhere to write where whoever started it closed its output."""
+    if sys.stdout is None:
+        sys.stdout = _nowhere()
+    if sys.stderr is None:
+        sys.stderr = _nowhere()
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):  # a terminal that lacks a letter is no reason to stop
+            stream.reconfigure(errors="backslashreplace")
+
+
+def _nowhere() -> TextIO:
+    return open(os.devnull, "w", encoding="utf-8")
+
+
 def _say(line: str) -> None:
-    print("railbridge: " + " ".join(line.split()), file=sys.stderr)
+    _note("railbridge: " + printable(" ".join(line.split())))
+
+
+def _note(text: str, end: str = "\n") -> None:
+    """Write to stderr; a run is not lost because nobody can read how it went."""
+    try:
+        print(text, end=end, file=sys.stderr, flush=True)
+    except (OSError, ValueError):
+        sys.stderr = _nowhere()
+
+
+def _tell(line: str) -> None:
+    print(printable(line))
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        super().error(printable(message))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -112,9 +159,7 @@ def _parser() -> argparse.ArgumentParser:
         return made
 
     raw = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(
-        "railbridge", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=raw
-    )
+    parser = _Parser("railbridge", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=raw)
     commands = parser.add_subparsers(required=True, metavar="command")
     changes = argparse.ArgumentParser(add_help=False)
     changes.add_argument("case", help="a case file (.toml), or the name of a shipped case")
@@ -123,7 +168,12 @@ def _parser() -> argparse.ArgumentParser:
         metavar="KEY=VALUE",
         action="append",
         default=[],
-        help="change a key, as in run.speed=30; may be repeated",
+        help="change a key, as in run.speed=30; may be repeated; paths as in the file",
+    )
+    changes.add_argument(
+        "--strict",
+        action="store_true",
+        help="refuse what is unlikely to be meant (exit code 2), instead of a warning",
     )
     run = add(
         "run",
@@ -193,15 +243,19 @@ def _case(given: argparse.Namespace) -> Case:
 
 def _run(given: argparse.Namespace) -> int:
     loaded = _case(given)
+    doubts = _said_doubts(loaded, given.strict)
+    if doubts and given.strict:
+        return 2
     progress = _Progress(given.quiet)
-    with _results(given.out) as folder:
+    with staging.files(given.out, "--out", FILES) as folder:
         code = 0
         try:
-            run = loaded.run(progress)
+            run = loaded.compute(progress)
         except NotConvergedError as error:
             run, code, message = error.run, 3, str(error)
         _write(folder, loaded, run, progress, not given.no_histories)
     progress.end()
+    _warn(remark for remark in loaded.remarks(run) if str(remark) not in doubts)
     if code:
         _say(f"{message} What there is was written to {given.out}.")
     elif unsettled(run):
@@ -213,6 +267,24 @@ def _run(given: argparse.Namespace) -> int:
     return code
 
 
+def _said_doubts(loaded: Case, strict: bool) -> set[str]:
+    """Print a line for whatever is unlikely to be meant, and return these lines."""
+    doubts = [remark for remark in loaded.doubts if isinstance(remark, InputWarning)]
+    if strict:
+        for doubt in doubts:
+            _say(str(doubt))
+    else:
+        _warn(doubts)
+    return {str(doubt) for doubt in doubts}
+
+
+def _warn(remarks: Iterable[Remark]) -> None:
+    """Print a line for every remark that is also warned of."""
+    for remark in remarks:
+        if isinstance(remark, (InputWarning, ResultWarning)):
+            _say(f"warning: {remark}")
+
+
 def _headline(loaded: Case, run: Crossing) -> str:
     passes = f"{run.iterations} iteration{'s' * (run.iterations != 1)}"
     solved = f"solved ({run.settings.interaction})"
@@ -220,9 +292,20 @@ def _headline(loaded: Case, run: Crossing) -> str:
         solved = f"converged in {passes}"
         if not run.converged:
             solved = f"{passes}, last change {run.changes[-1]:.2g}"
-    x = loaded.points[0]
-    value, _ = run.displacement(x).extreme("displacement_z")
+    x, value = _worst(loaded, run)
+    if len(loaded.points) > 1:
+        return f"{solved}, displacement is largest at x = {x:g} m, {value * 1e3:.4g} mm"
     return f"{solved}, displacement at x = {x:g} m is {value * 1e3:.4g} mm"
+
+
+def _worst(loaded: Case, run: Crossing) -> tuple[float, float]:
+    """Return the point that moves most and its displacement, m; the vertical one if there is any.
+
+    Signed.
+    """
+    name = "displacement_z" if run.deck.has["z"] else "displacement_y"
+    found = [(x, run.displacement(x).extreme(name)[0]) for x in loaded.points]
+    return max(found, key=lambda each: abs(each[1]))
 
 
 def _write(
@@ -242,11 +325,13 @@ def _write(
 
 def _check(given: argparse.Namespace) -> int:
     loaded = _case(given)
+    if _said_doubts(loaded, given.strict) and given.strict:
+        return 2
     needed = bytes_needed(loaded.train, loaded.deck, loaded.settings, len(loaded.points))
     s = loaded.settings
     seconds = (loaded.deck.length + loaded.train.length) / s.speed + s.tail
     wheels = len(loaded.train.wheels)
-    print(
+    _tell(
         f"{given.case}: can be run; {wheels} wheels, {seconds:.3g} s in steps of "
         f"{s.time_step:.3g} s, {needed / 1e9:.2g} GB"
     )
@@ -258,23 +343,34 @@ def _new(given: argparse.Namespace) -> int:
     if path.suffix != ".toml":
         raise InputError("file", given.file, "must end in .toml")
     try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(pages.starter(path.name))
+        _write_new(path, pages.starter(path.name))
     except FileExistsError:
         raise InputError(
             "file", given.file, "exists already and is left alone", "Choose another name"
         ) from None
     except (OSError, ValueError) as error:
-        raise InputError("file", given.file, f"cannot be written ({_reason(error)})") from None
-    print(f"{given.file} written; run it with: railbridge run {given.file} --out results")
+        why = getattr(error, "strerror", None) or str(error)
+        raise InputError("file", given.file, f"cannot be written ({why})") from None
+    _tell(f"{given.file} written; run it with: railbridge run {given.file} --out results")
     return 0
+
+
+def _write_new(path: Path, text: str) -> None:
+    """Write a file that must not exist yet; whole, or it does not exist afterwards either."""
+    with path.open("x", encoding="utf-8") as file:
+        try:
+            file.write(text)
+            file.flush()
+        except BaseException:
+            path.unlink()
+            raise
 
 
 def _list(given: argparse.Namespace) -> int:
     for kind in [given.kind] if given.kind else KINDS:
         print(kind)
         for name in shelf.data_names(kind):
-            print(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
+            _tell(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
     return 0
 
 
@@ -295,16 +391,14 @@ def _schema(given: argparse.Namespace) -> int:
 
 def _copy_notebooks(given: argparse.Namespace) -> int:
     folder = Path(given.folder)
-    with _staging(given.folder, "DIR") as (scratch, existed):
+    with staging.folder(given.folder, "DIR") as staged:
         planned = copies.plan(folder, given.force)
-        copies.stage(planned, folder, scratch)
-        if existed:
-            copies.place(planned, folder, scratch)
-        else:
-            scratch.replace(folder)
+        copies.stage(planned, folder, staged.scratch)
+        if staged.existed or not staged.become():
+            copies.place(planned, folder, staged.scratch)
     for copy in planned:
         if copy.action in ("updated", "kept", "replaced"):
-            print(
+            _tell(
                 f"{copy.action:10}{copy.name}"
                 + f"  (yours is now {copy.backup})" * bool(copy.backup)
             )
@@ -312,103 +406,14 @@ def _copy_notebooks(given: argparse.Namespace) -> int:
         a: sum(c.action == a for c in planned)
         for a in ("copied", "updated", "replaced", "unchanged", "kept")
     }
-    print(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
+    _tell(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
     if count["kept"]:
         print(
             "kept: changed since they were copied; --force replaces them and keeps yours "
             "beside under another name"
         )
-    print(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
+    _tell(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
     return 0
-
-
-def _reason(error: Exception) -> str:
-    return getattr(error, "strerror", None) or str(error)
-
-
-@contextmanager
-def _results(out: str) -> Iterator[Path]:
-    """Give a temporary folder beside the results.
-
-    What is in it becomes the results only if all went well.
-    """
-    folder = Path(out)
-    with _staging(out, "--out") as (scratch, existed):
-        yield scratch
-        if existed:
-            # summary.json goes first and comes last: where it stands, the files beside it belong to
-            # it.
-            (folder / "summary.json").unlink(missing_ok=True)
-            for name in FILES:
-                if (scratch / name).exists():
-                    (scratch / name).replace(folder / name)
-                else:
-                    (folder / name).unlink(missing_ok=True)
-        else:
-            scratch.replace(folder)
-
-
-@contextmanager
-def _staging(out: str, field: str) -> Iterator[tuple[Path, bool]]:
-    """Give a temporary folder in or beside the one that is asked for, and whether that one exists.
-
-    Nothing is left of it afterwards.
-
-    Raises
-    ------
-    InputError
-        The folder cannot be written to; raised before anything is computed.
-    """
-    folder, made = Path(out), []
-    try:
-        if not out.strip():
-            raise InputError(field, out, "must name a folder")
-        existed = folder.is_dir()
-        if not existed and (folder.exists() or folder.is_symlink()):
-            raise InputError(field, out, "is a file, not a folder", "Choose another name")
-        for parent in [p for p in reversed(folder.absolute().parents) if not p.exists()]:
-            parent.mkdir()
-            made.append(parent)
-        if not existed:
-            folder.mkdir()  # only to see that it can be made
-            folder.rmdir()
-        # In a folder that exists already the temporary one goes inside: it may be a file system of
-        # its own.
-        scratch = Path(
-            tempfile.mkdtemp(
-                prefix=".railbridge-", dir=folder if existed else folder.absolute().parent
-            )
-        )
-    except (OSError, ValueError) as error:
-        _remove(made)
-        if isinstance(error, InputError):
-            raise
-        raise InputError(
-            field, out, f"cannot be written to ({_reason(error)})", "Choose another folder"
-        ) from None
-    try:
-        scratch.chmod(0o777 & ~_umask())
-        yield scratch, existed
-    except BaseException:
-        shutil.rmtree(scratch, ignore_errors=True)
-        _remove(made)
-        raise
-    shutil.rmtree(scratch, ignore_errors=True)
-
-
-def _remove(made: list[Path]) -> None:
-    """Remove empty folders again, the innermost first."""
-    for parent in reversed(made):
-        try:
-            parent.rmdir()
-        except OSError:
-            return
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 class _Progress:
@@ -427,17 +432,17 @@ class _Progress:
         if self.quiet or now - self.last < (0.2 if terminal else 10.0) or now - self.start < 1.0:
             return
         self.last = now
-        line = f"railbridge: {text}, {now - self.start:.0f} s"
+        line = f"railbridge: {printable(text)}, {now - self.start:.0f} s"
         if terminal:
-            print("\r" + line.ljust(self.shown), end="", file=sys.stderr, flush=True)
+            _note("\r" + line.ljust(self.shown), end="")
             self.shown = len(line)
         else:
-            print(line, file=sys.stderr, flush=True)
+            _note(line)
 
     def end(self) -> None:
         """Clear the line."""
         if self.shown:
-            print("\r" + " " * self.shown + "\r", end="", file=sys.stderr, flush=True)
+            _note("\r" + " " * self.shown + "\r", end="")
             self.shown = 0
 
 

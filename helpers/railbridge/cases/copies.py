@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import InputError
+from ..exchange.reading import read_text
 from . import shelf
 
 __all__ = ["MANIFEST", "Copy", "contents", "place", "plan", "stage"]
@@ -154,6 +155,9 @@ def plan(folder: Path, force: bool = False) -> list[Copy]:
         if not target.exists():
             result.append(Copy(name, "copied", content))
             continue
+        if not target.is_file():
+            allowed = "stands where a file of the suite goes and is none"
+            raise InputError("DIR", str(target), allowed, "Move it, or choose another DIR")
         now = target.read_bytes()
         if now == content:
             result.append(Copy(name, "unchanged", content))
@@ -210,7 +214,7 @@ def _refuse_own(folder: Path) -> None:
 def _recorded(folder: Path) -> dict[str, str]:
     """Digest of every copy as made; without a readable record every copy counts as edited."""
     try:
-        record = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+        record = json.loads(read_text(folder / MANIFEST))
     except (OSError, ValueError):
         return {}
     return (

@@ -8,9 +8,10 @@ key, as in ``run.speed``.
 from __future__ import annotations
 
 import copy
-import warnings
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import InitVar, dataclass, field, fields
+from functools import cached_property
 from pathlib import Path
 from pprint import pformat
 from typing import Any
@@ -18,13 +19,13 @@ from typing import Any
 import numpy as np
 
 from .. import errors, exchange
-from ..crossing import NotConvergedError, compute
+from ..crossing import NotConvergedError, compute, warn_of
 from ..decks import Deck
-from ..errors import InputError, InputWarning, Remark, ResultWarning, within
+from ..errors import InputError, Remark, within
 from ..notices import remarks
 from ..plausibility import doubts
 from ..results import Crossing
-from ..settings import Options, Settings, check
+from ..settings import Options, Settings, bytes_needed, check, refuse_bytes
 from ..tracks import Track
 from ..trains import AnyTrain
 from . import objects, shelf, tables
@@ -70,6 +71,11 @@ class Case:
     settings: Settings = field(init=False, repr=False, compare=False)
     points: np.ndarray = field(init=False, repr=False, compare=False)
 
+    def __repr__(self) -> str:
+        cars, speed = len(self.train.formation), self.settings.speed
+        found = f"Case({self.deck.name!r}, {self.deck.length:g} m, {cars} cars, {speed:g} m/s)"
+        return found if len(found) < 240 else f"Case({cars} cars, {speed:g} m/s)"
+
     def __post_init__(self, like: Case | None, unchanged: frozenset[str]) -> None:
         content = {k: errors.plain(k, v) for k, v in errors.table("case", self.content).items()}
         t = checked(tables.CASE, content)
@@ -81,7 +87,10 @@ class Case:
             settings = check(train, deck, track, **options)
         given = t.output.points if t.output is not None else None
         points = [deck.length / 2] if given is None else given
-        points = errors.numbers("output.points", points, most=deck.length, unit="m")
+        points = errors.places("output.points", points, (0.0, deck.length))
+        needed = bytes_needed(train, deck, settings, len(points))
+        remedy = "Use fewer places or a larger run.time_step"
+        refuse_bytes("output.points", len(points), needed, "a run with so many places", remedy)
         made = {
             "content": content, "train": train, "deck": deck, "track": track, "options": options,
             "settings": settings, "points": points,
@@ -107,16 +116,18 @@ class Case:
     def get(self, path: str) -> Any:
         """Return the value at a path, None if it is not given."""
         place: Any = self.content
-        for part in path.split("."):
+        for part in errors.text("path", path).split("."):
             place = place.get(part) if isinstance(place, dict) else None
         return copy.deepcopy(place)
 
     def run(self, progress: Callable[[str], None] | None = None) -> Crossing:
         """Compute the crossing, and warn of what is doubtful about it; see `cross`."""
-        run = self.compute(progress)
-        for remark in self.remarks(run):
-            if isinstance(remark, (InputWarning, ResultWarning)):
-                warnings.warn(remark, stacklevel=2)
+        try:
+            run = self.compute(progress)
+        except NotConvergedError as error:
+            warn_of(self.remarks(error.run))
+            raise
+        warn_of(self.remarks(run))
         return run
 
     def compute(self, progress: Callable[[str], None] | None = None) -> Crossing:
@@ -131,18 +142,35 @@ class Case:
         """What is unlikely to be meant, in the words of the case; known before anything is run."""
         found = [remark.moved("deck") for remark in self.deck.remarks]
         found += doubts(self.train, self.deck, self.track, self.settings)
-        return [remark.moved(names=IN_A_CASE) for remark in found]
+        return [self._in_its_words(remark) for remark in found]
 
     def remarks(self, run: Crossing) -> list[Remark]:
         """Return what must be known before a run of this case is read, in the case's words."""
-        return [remark.moved(names=IN_A_CASE) for remark in remarks(run)]
+        return [self._in_its_words(remark) for remark in remarks(run)]
+
+    @cached_property
+    def _words(self) -> dict[str, str]:
+        """What this case calls a deck's and a train's fields, by their names in Python."""
+        words = {"train.notches": "train.notch"}
+        if "vehicle" not in self.content["train"]:
+            words["train.vehicle"] = "train.cars"
+        with suppress(InputError):  # a deck file that has gone since
+            words |= objects.words_of_deck(self.content["deck"])
+        return words
+
+    def _in_its_words(self, remark: Remark) -> Remark:
+        """Return a remark whose field is a key of this case or of the files it names."""
+        for name, key in self._words.items():
+            if remark.field == name or remark.field.startswith((f"{name}.", f"{name}[")):
+                return type(remark)(key + remark.field[len(name) :], remark.text)
+        return remark.moved(names=IN_A_CASE)
 
     def summary(self, run: Crossing | None = None) -> dict[str, Any]:
         """Return the numbers engineers look at first; see `summarize`.
 
         Of a run of this case, if there is one already.
         """
-        run = run or self.compute()
+        run = self.compute() if run is None else errors.instance("run", run, Crossing)
         return summarize(run, self.points, self.remarks(run))
 
     def code(self) -> str:
@@ -156,11 +184,19 @@ class Case:
         )
 
 
+_DEEPEST = 20
+
+
 def changed(content: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return tables with some keys changed, by path; None takes a key away."""
+    if not isinstance(changes, Mapping):
+        allowed = "must be a table of new values by path"
+        raise InputError("changes", changes, allowed, "For instance {'run.speed': 30.0}")
     result = copy.deepcopy(dict(content))
     for path, value in changes.items():
         *parents, last = errors.text("path of a change", path).split(".")
+        if len(parents) > _DEEPEST:
+            raise InputError(path, None, f"leads more than {_DEEPEST} tables deep")
         place = result
         for parent in parents:
             place = place.setdefault(parent, {})
@@ -180,7 +216,8 @@ def case(source: str | Path | Mapping[str, Any], changes: Mapping[str, Any] | No
     ----------
     source : str, Path or mapping
     changes : mapping, optional
-        Keys changed before the case is checked; see `Case.replace`.
+        Keys changed before the case is checked; see `Case.replace`. Paths among them are relative
+        to the file, like those in it.
 
     Raises
     ------
@@ -188,21 +225,21 @@ def case(source: str | Path | Mapping[str, Any], changes: Mapping[str, Any] | No
         Unknown name or bad content.
     """
     if isinstance(source, Mapping):
-        content = dict(source)
-    else:
-        path = shelf.data_file("cases", source, ".toml")
-        content = _beside(shelf.read_toml(path), path.parent)
-    return Case(changed(content, changes) if changes else content)
+        return Case(changed(source, {} if changes is None else changes))
+    path = shelf.data_file("cases", source, ".toml")
+    content = shelf.read_toml(path, tables.CASE.model_fields)
+    changes = {} if changes is None else changes
+    if shelf.is_path(source):
+        return Case(_beside(changed(content, changes), path.parent))
+    # Nobody knows in which folder a shipped case stands: changes are relative to one's own.
+    return Case(changed(_beside(content, path.parent), changes))
 
 
 def _beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
     """Make paths in a case file, which are relative to it, paths that can be opened from here."""
 
     def opened(name: Any) -> Any:
-        is_path = isinstance(name, str) and (
-            name.endswith((".csv", ".toml")) or len(Path(name).parts) > 1
-        )
-        return str(folder / name) if is_path else name
+        return str(folder / name) if isinstance(name, str) and shelf.is_path(name) else name
 
     def change(place: Any, name: str) -> None:
         if isinstance(place, dict) and name in place:

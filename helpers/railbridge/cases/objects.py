@@ -7,28 +7,30 @@ in their own words; the path of the key is put in front here.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from .. import exchange
+from .. import errors, exchange
 from ..beams import Beam, Bearing, Section
 from ..boxes import Box, BoxMesh, Pads
 from ..decks import Deck, rayleigh
-from ..errors import InputError, plain, within
+from ..errors import InputError, Remark, ResultWarning, plain, within
 from ..exchange import ModesTable
+from ..plausibility import damping_frequencies
 from ..tracks import Harmonic, Irregularity, Level, Notch, Rails, Track
 from ..tracks import Table as MeasuredTrack
 from ..trains import AnyTrain, AxleTrain, Train
 from ..vehicles import Body, Spring, Vehicle
 from . import shelf, tables
-from .cars import CAR_PARAMETERS, two_bogie_car
+from .cars import CAR_PARAMETERS, OPTIONAL_PARAMETERS, two_bogie_car
 from .tabletypes import Table, checked
 
 __all__ = [
     "box", "box_from_table", "car_parameters", "deck", "deck_from_table", "deck_of_case",
-    "track_of_case", "train_of_case", "vehicle",
+    "track_of_case", "train_of_case", "vehicle", "words_of_deck",
 ]  # fmt: skip
 
 # ---- vehicles
@@ -49,7 +51,7 @@ def vehicle(source: str | Path) -> Vehicle:
     if path.suffix == ".csv":
         with within(source=path.name):
             return two_bogie_car(path.stem, **car_parameters(path))
-    content = shelf.read_toml(path)
+    content = shelf.read_toml(path, tables.VEHICLE.model_fields)
     with within("", {"bodies": "body", "springs": "spring"}, path.name):
         return _vehicle_from_table(path.stem, content)
 
@@ -63,7 +65,8 @@ def car_parameters(source: str | Path) -> dict[str, float]:
         A shipped name (``xia2000``) or a ``.csv`` file.
     """
     units = {name: bounds.unit for name, bounds in CAR_PARAMETERS.items()}
-    return shelf.read_parameters(shelf.data_file("vehicles", source), units)
+    path, same = shelf.data_file("vehicles", source), {"static_wheelset_mass": "wheelset_mass"}
+    return shelf.read_parameters(path, units, OPTIONAL_PARAMETERS, same)
 
 
 def _vehicle_from_table(name: str, content: dict[str, Any]) -> Vehicle:
@@ -156,7 +159,7 @@ def deck(source: str | Path) -> Deck:
         Unknown name (the nearest is suggested), or bad content.
     """
     path = shelf.data_file("decks", source, ".toml")
-    content = exchange.beside(shelf.read_toml(path), path.parent)
+    content = exchange.beside(shelf.read_toml(path, tables.DECK_KEYS), path.parent)
     with within(source=path.name):
         return _deck_from_table(path.stem, content)
 
@@ -170,7 +173,7 @@ def box(source: str | Path) -> Box:
         Unknown name, a deck file without the table ``[box]``, or bad content.
     """
     path = shelf.data_file("decks", source, ".toml")
-    content = shelf.read_toml(path)
+    content = shelf.read_toml(path, tables.DECK_KEYS)
     with within(source=path.name):
         if "box" not in content:
             allowed = "this deck file has no such table"
@@ -180,7 +183,7 @@ def box(source: str | Path) -> Box:
 
 def box_from_table(name: str, content: dict[str, Any]) -> Box:
     """Build a box from the content of a deck file with the table ``[box]``."""
-    with within(source=f"deck {name}"):
+    with within(source=f"deck {errors.text('name', name)}"):
         return _box(name, checked(tables.DECK_FILE, content))
 
 
@@ -194,8 +197,40 @@ def deck_from_table(name: str, content: dict[str, Any]) -> Deck:
     InputError
         Missing, unknown, contradictory or wrong keys, or a mechanism.
     """
-    with within(source=f"deck {name}"):
+    with within(source=f"deck {errors.text('name', name)}"):
         return _deck_from_table(name, content)
+
+
+_GIVEN_BY = {
+    "section": ("section.second_moment_vertical", "section"),
+    "box": ("box", "box"),
+    "modes": ("modes", "modes"),
+}
+"""What of a deck's table its frequencies follow from, and what its mass."""
+
+
+def words_of_deck(content: Mapping[str, Any]) -> dict[str, str]:
+    """Return what a case's ``[deck]``, or the file it names, calls the properties of a `Deck`."""
+    with within("deck.file", {"deck": ""}):
+        own = _own(content["file"])[1] | dict(content) if "file" in content else content
+    words = {"deck.spans": "deck.length"} if "length" in own else {"deck.length": "deck.spans"}
+    for key, (stiffness, mass) in _GIVEN_BY.items():
+        if isinstance(own.get(key), Mapping):
+            words |= {"deck.bending_stiffness_vertical": f"deck.{stiffness}"}
+            words |= {"deck.frequencies_hz": f"deck.{stiffness}"}
+            words |= {"deck.mass": f"deck.{mass}", "deck.mass_per_metre": f"deck.{mass}"}
+    if isinstance(own.get("section"), Mapping):
+        words["deck.torsional_stiffness"] = "deck.section.torsion_constant"
+        words["deck.bending_stiffness_lateral"] = "deck.section.second_moment_lateral"
+    damping = own.get("damping", {})
+    ratio = "damping.modal" if "modal" in damping else "damping.ratio" if damping else "modes"
+    return words | {"deck.damping_ratios": f"deck.{ratio}"}
+
+
+def _own(name: str) -> tuple[Path, dict[str, Any]]:
+    """Return the path of a deck file and its content, with paths that can be opened from here."""
+    path = shelf.data_file("decks", name, ".toml")
+    return path, exchange.beside(shelf.read_toml(path, tables.DECK_KEYS), path.parent)
 
 
 def deck_of_case(content: Mapping[str, Any]) -> Deck:
@@ -207,8 +242,7 @@ def deck_of_case(content: Mapping[str, Any]) -> Deck:
                 "deck", json.dumps(content, sort_keys=True), *exchange.stamps(content)
             )
     with within("deck.file", {"deck": ""}):
-        path = shelf.data_file("decks", t.file, ".toml")
-    own = exchange.beside(shelf.read_toml(path), path.parent)
+        path, own = _own(t.file)
     replaced = {name: value for name, value in content.items() if name != "file"}
     if isinstance(own.get("modes"), dict) and "modes" in replaced:
         # A number of modes beside another program's modes means how many of them.
@@ -231,14 +265,20 @@ def _deck_from_table(name: str, content: Mapping[str, Any]) -> Deck:
     t = checked(tables.DECK_FILE, content)
     if isinstance(t, tables.MODAL_DECK):
         return _modal_deck(name, t)
-    return _box_deck(name, t) if isinstance(t, tables.BOX_DECK) else _beam_deck(name, t)
+    if isinstance(t, tables.BOX_DECK):
+        with within(names=_IN_A_BOX_DECK):
+            return _box_deck(name, t)
+    return _beam_deck(name, t)
 
 
 def _beam_deck(name: str, t: Table) -> Deck:
     properties = {key: getattr(t, key) for key in ("mass", *tables.STIFFNESSES) if t.has(key)}
+    doubted: list[Remark] = []
     if t.has("section"):
         with within("section"):
-            properties = Section(**t.section.given).of_beam(t.rotary_inertia)
+            section = Section(**t.section.given)
+            properties = section.of_beam(t.rotary_inertia)
+        doubted += [remark.moved("section") for remark in section.remarks]
     bearings = []
     for i, bearing in enumerate(t.bearing or [], start=1):
         with within(f"bearing[{i}]"):
@@ -254,25 +294,37 @@ def _beam_deck(name: str, t: Table) -> Deck:
             centroid_height=t.centroid_height,
             **properties,
         )
-        return beam.deck(t.modes, _damping(t), _tracks(t), t.width, t.track_height)
+        made = beam.deck(t.modes, _damping(t), _tracks(t), t.width, t.track_height)
+    # What follows from the section is doubted there.
+    derived = ("mass", *tables.STIFFNESSES) if t.has("section") else ()
+    own = [remark for remark in beam.remarks if remark.field not in derived]
+    doubted += [remark.moved(names={"bearings": "bearing"}) for remark in own]
+    left_out = [remark for remark in made.remarks if isinstance(remark, ResultWarning)]
+    return _doubted(replace(made, remarks=tuple(left_out)), t, doubted)
+
+
+def _doubted(deck: Deck, t: Table, found: Iterable[Remark] = ()) -> Deck:
+    """Return a deck with what its table makes doubtful, in the table's words."""
+    deck = replace(deck, remarks=(*deck.remarks, *found))
+    if t.damping is None or not t.damping.has("frequencies_hz"):
+        return deck
+    given = t.damping.frequencies_hz
+    doubted = damping_frequencies("damping.frequencies_hz", given, deck)
+    return replace(deck, remarks=(*deck.remarks, *doubted))
 
 
 def _refuse_beside(y: float, width: float | None) -> None:
-    if width is not None and abs(y) > width / 2:
+    if width is not None and abs(y) > width / 2 + 1e-9:
         allowed = f"is off the deck, half width {width / 2:g} m"
         raise InputError("y", y, allowed, "Move the bearing below the deck, or correct the width")
 
 
 def _tracks(t: Table) -> dict[str, float]:
     """Return the named tracks, m; refuse one beside the deck."""
-    for name, y in (t.tracks or {}).items():
-        if t.width is not None and abs(y) > t.width / 2:
-            allowed = (
-                f"must be a finite number at least {-t.width / 2:g} and at most {t.width / 2:g} m"
-            )
-            raise InputError(
-                f"tracks.{name}", y, allowed, "Tracks lie on the deck, correct the width"
-            )
+    half, remedy = (t.width or 0.0) / 2, "Tracks lie on the deck, correct the width"
+    if t.width is not None:
+        for name, y in (t.tracks or {}).items():
+            errors.place(f"tracks.{name}", y, (-half, half), remedy=remedy)
     return t.tracks or {}
 
 
@@ -283,13 +335,18 @@ def _damping(t: Table) -> tuple[float, float] | float:
         return rayleigh(t.damping.ratio, t.damping.frequencies_hz)
 
 
+_IN_A_BOX_DECK = {"bearings": "bearing", "pads": "bearing"} | {
+    dimension: f"box.{dimension}" for dimension in tables.DIMENSIONS
+}
+"""What a deck file calls the fields of a box, and what its shell stands on."""
+
+
 def _box(name: str, t: Table) -> Box:
     pads = []
     for i, line in enumerate(t.bearing or [], start=1):
         with within(f"bearing[{i}]"):
             pads.append(Pads(**{"fixed": ()} | line.given))
-    inside = {dimension: f"box.{dimension}" for dimension in tables.DIMENSIONS}
-    with within(names={"bearings": "bearing", **inside}):
+    with within(names=_IN_A_BOX_DECK):
         return Box(name, t.all_spans, bearings=tuple(pads), tracks=t.tracks or {}, **t.box.given)
 
 
@@ -298,13 +355,18 @@ def _box_deck(name: str, t: Table) -> Deck:
     if t.model == "shell":
         with within("mesh"):
             mesh = BoxMesh(**(t.mesh.given if t.mesh else {}))
-        return girder.shell_deck(t.modes, _damping(t), mesh)
-    switches = {key: getattr(t, key) for key in ("shear", "rotary_inertia") if t.has(key)}
-    return girder.beam_deck(t.modes, _damping(t), **switches)
+        made = girder.shell_deck(t.modes, _damping(t), mesh)
+    else:
+        switches = {key: getattr(t, key) for key in ("shear", "rotary_inertia") if t.has(key)}
+        made = girder.beam_deck(t.modes, _damping(t), **switches)
+    places = {"bearings": "bearing", **{name: f"box.{name}" for name in tables.DIMENSIONS}}
+    moved = [remark.moved(names=places) for remark in made.remarks]
+    return _doubted(replace(made, remarks=()), t, moved)
 
 
 def _modal_deck(name: str, t: Table) -> Deck:
     damping = _damping(t) if t.damping else None
     own = {"name": name, "tracks": _tracks(t), "width": t.width, "track_height": t.track_height}
     with within("modes"):
-        return ModesTable(**t.modes.given).deck(damping, **own)
+        made = ModesTable(**t.modes.given).deck(damping, **own)
+    return _doubted(made, t)

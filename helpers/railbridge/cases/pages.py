@@ -9,10 +9,12 @@ from typing import Any
 
 from pydantic_core import PydanticUndefined
 
+from .. import bounds
+from ..units import UNITS
 from . import tables
 from .tabletypes import Table
 
-__all__ = ["rows", "schema", "starter", "with_tables"]
+__all__ = ["rows", "schema", "starter", "unit_rows", "with_tables"]
 
 
 def schema() -> dict[str, Any]:
@@ -53,17 +55,30 @@ def rows(table: type[Table]) -> list[str]:
     return lines
 
 
+def unit_rows() -> list[str]:
+    """Return the lines of a Markdown table of all units."""
+    lines = ["| what | units |", "|---|---|"]
+    for dimension, family in UNITS.items():
+        names = ", ".join(f"`{unit}`" if unit else "nothing" for unit in family)
+        lines.append(f"| {dimension} | {names} |")
+    return lines
+
+
 _MARKED = re.compile(r"(<!-- table: ([\w. ]+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
 
 
 def with_tables(page: str) -> str:
     """Return a page with its marked tables written anew.
 
-    A table stands between ``<!-- table: NAME -->`` and ``<!-- end -->``; NAME is one of `TABLES`.
+    A table stands between ``<!-- table: NAME -->`` and ``<!-- end -->``; NAME is one of `TABLES`,
+    ``units``, or ``doubts`` for what is doubted.
     """
+    special = {"units": unit_rows, "doubts": bounds.table}
 
     def written(found: re.Match) -> str:
-        return f"{found[1]}{chr(10).join(rows(tables.TABLES[found[2]]))}\n{found[4]}"
+        name = found[2]
+        lines = special[name]() if name in special else rows(tables.TABLES[name])
+        return f"{found[1]}{chr(10).join(lines)}\n{found[4]}"
 
     return _MARKED.sub(written, page)
 

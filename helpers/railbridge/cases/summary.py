@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import notices
+from .. import errors, notices
 from ..decks import History, Line
 from ..errors import Remark
 from ..results import ENVELOPE, Crossing
@@ -66,9 +66,9 @@ def summarize(
     Accelerations are those up to a cut-off, the last of ``deck_frequencies_hz``. With more modes
     they settle under Rayleigh damping, slowly under one ratio for all, not at all without damping.
     """
-    s, deck = run.settings, run.deck
+    s, deck = errors.instance("run", run, Crossing).settings, run.deck
     remarks = notices.remarks(run) if remarks is None else remarks
-    points = [float(x) for x in points]
+    points = errors.places("points", points, (0.0, deck.length)).tolist()
     kinds = run.train.kinds()
     iterated = s.interaction == "iterate"
     result = {
@@ -308,15 +308,31 @@ def _envelope(run: Crossing, name: str) -> dict[str, Any] | None:
 
 
 def _car_body(run: Crossing) -> dict[str, Any]:
-    """Return the extremes of the car bodies' accelerations, with car and place."""
+    """Return the extremes of the car bodies' accelerations, with car and place.
+
+    And the body, where a car has several: the coaches of an articulated train.
+    """
     accelerations = run.body_accelerations
-    cars = range(1, len(accelerations) + 1)
-    places = [{"car": car, "place": place} for car in cars for place in PLACES]
+    most = accelerations.shape[1]
+    places: list[dict[str, Any]] = []
+    free: list[set[str]] = []
+    for car in run.train.formation:
+        if car.vehicle is None:
+            continue
+        own = car.vehicle.body_places
+        several = len(own) > len(PLACES)
+        named = [{"body": body.name} if several else {} for body, _, _ in own]
+        places += [
+            {"car": car.number, "place": place, **name}
+            for (_, place, _), name in zip(own, named, strict=True)
+        ]
+        places += [{}] * (most - len(own))
+        free.append({freedom for body, _, _ in own for freedom in body.freedoms})
     result: dict[str, Any] = {}
     for component, name in ((1, "acceleration_z"), (0, "acceleration_y")):
-        free = any(name[-1] in vehicle.body.freedoms for vehicle, _ in run.train.kinds())
-        own = accelerations[:, :, component]
-        result[name] = _extremes(own, run.time, places) if free else None
+        moves = any(name[-1] in freedoms for freedoms in free)
+        found = accelerations[:, :, component]
+        result[name] = _extremes(found, run.time, places) if moves else None
     return result
 
 

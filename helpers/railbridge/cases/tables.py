@@ -233,7 +233,8 @@ def _kind_of_train(value: Any) -> str:
 def _refuse_several_trains(value: Any) -> Any:
     if isinstance(value, list):
         allowed = "several trains on one deck are not supported: they feel each other through it"
-        raise InputError("", value, allowed, "Give one [train]")
+        remedy = "Give one [train]; of bare axle loads, which feel nothing, run each and add them"
+        raise InputError("", value, allowed, remedy)
     if isinstance(value, dict) and isinstance(value.get("cars"), list) and "vehicle" in value:
         allowed = "give either vehicle with a number of cars, or a list of cars"
         raise InputError("vehicle", value["vehicle"], allowed)
@@ -282,7 +283,13 @@ BEARING = table(
         Bearing,
         fixed=_words(FIXITIES),
         stiffness=named_numbers(FIXITIES, above=0.0, most=STIFFEST_BEARING),
-    ),
+    )
+    | {
+        "fixed": key(
+            _words(FIXITIES),
+            "What it holds rigidly: some of x y z roll pitch yaw. Needed without stiffness.",
+        )
+    },
 )
 PADS = table(
     "Pads",
@@ -438,7 +445,7 @@ MODES = table(
     **fields_of(
         ModesTable,
         units=anything(
-            {"type": "array", "minItems": 1, "maxItems": 2, "items": {"type": "string"}}
+            {"type": "array", "minItems": 1, "maxItems": 2, "items": {"type": ["string", "number"]}}
         ),
         axes=anything({"type": "array", "minItems": 3, "maxItems": 3, "items": {"enum": _AXES}}),
         rail=anything({"type": "object"}),
@@ -466,6 +473,8 @@ def _kind_of_deck(value: Any) -> str:
 _MAKERS = {"beam": BEAM, "box": BOX_DECK, "modes": MODAL_DECK}
 DECK_FILE = switched(_kind_of_deck, _MAKERS)
 """The content of a deck file."""
+DECK_KEYS = frozenset().union(*(kind.model_fields for kind in _MAKERS.values()))
+"""Keys that a deck file may have, whatever makes its deck."""
 SHIPPED = table(
     "DeckFile",
     "A deck file; modes and damping may replace its own.",

@@ -30,7 +30,7 @@ from pydantic import (
 )
 
 from .. import errors
-from ..errors import FieldType, InputError, Range, did_you_mean, field_types, joined
+from ..errors import FieldType, InputError, Range, did_you_mean, field_types, joined, written
 
 __all__ = [
     "Key", "Table", "anything", "boolean", "by_key", "by_value", "checked", "fields_of", "key",
@@ -61,7 +61,8 @@ class Table(BaseModel):
         for given in value:
             if given not in known:
                 allowed, remedy = cls.unknown_key or ("unknown key", did_you_mean(given, known))
-                raise InputError(given, value[given] if cls.unknown_key else None, allowed, remedy)
+                said = value[given] if cls.unknown_key else None
+                raise InputError(written(given), said, allowed, remedy)
         for name, f in cls.model_fields.items():
             if f.is_required() and (f.alias or name) not in value:
                 missing = f.alias or name
@@ -156,7 +157,7 @@ def named_numbers(names: tuple[str, ...] | None = None, **limits: Any) -> Any:
         given = errors.table("", value)
         for name in given:
             errors.choice("", name, names or given)
-        return {name: kind.checked(name, v) for name, v in given.items()}
+        return {name: kind.checked(written(name), v) for name, v in given.items()}
 
     schema: dict[str, Any] = {"type": "object", "additionalProperties": _schema(kind)}
     if names is not None:

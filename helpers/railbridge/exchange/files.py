@@ -12,9 +12,10 @@ shapes). What becomes of them under the rail is in `modal`.
 
 from __future__ import annotations
 
-import json
 import math
+import re
 import warnings
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -24,7 +25,8 @@ import numpy as np
 from .. import errors
 from ..decks import Deck
 from ..errors import InputError, within
-from ..units import MASSES, PER_METRE
+from ..settings import refuse_bytes
+from ..units import factor_of, per_metre
 from .modal import ModalModel
 from .nodes import ModelAxis, Nodes, model_units, read_nodes, stated_units
 from .tables import Columns, read_columns
@@ -34,6 +36,8 @@ __all__ = ["export_modes", "read_modes"]
 _SHAPES = ("ux", "uy", "uz", "rx", "ry", "rz")
 _INERTIAS = ("inertia_x", "inertia_y", "inertia_z")
 _WORST_OVERLAP = 0.1
+_COPIES = 4
+"""Of all shapes, that stand in memory together while modes are checked."""
 
 # ---- modes in
 
@@ -85,11 +89,13 @@ def read_modes(
         modal_mass = np.ones(len(order))
         if "modal_mass" in table.cells:
             modal_mass = _same_in_mode(table, "modal_mass", order, rows, above=0.0)
-        values, known = _values(table, nodes.turn, PER_METRE[length])
+        values, known = _values(table, nodes.turn, per_metre(length))
+    _refuse_size(len(order), len(nodes.labels), table.name)
     shapes = np.full((len(order), len(nodes.labels), 6), np.nan)
     index = np.array([place[label] for label in table.labels("node")])
+    masses_si = modal_mass * factor_of("units[2]", mass, "mass")
     for i, own in enumerate(rows):
-        shapes[i, index[own]] = values[own] / np.sqrt(modal_mass[i] * MASSES[mass])
+        shapes[i, index[own]] = values[own] / np.sqrt(masses_si[i])
     nodal = None
     if masses is not None:
         with within(names={"path": "masses"}):
@@ -111,6 +117,13 @@ def read_modes(
     with within(source=table.name):
         _refuse_overlap(model, table.name)
     return model
+
+
+def _refuse_size(modes: int, nodes: int, name: str) -> None:
+    """Refuse shapes that would not fit into memory: a few nodes of very many in many modes, say."""
+    needed = 8.0 * (_COPIES * 6 * modes * nodes + 3 * modes**2)
+    remedy = "Write fewer modes, and only the nodes of the deck that they move"
+    refuse_bytes("modes", None, needed, f"{modes} modes at {nodes} nodes", remedy, name)
 
 
 def _units_of(table: Columns, units: Sequence[str] | None, nodes: Nodes) -> tuple[str, str]:
@@ -140,13 +153,13 @@ def _rows_of_modes(table: Columns, place: Mapping[str, int]) -> tuple[list[str],
     whole = set(nodes)
     for mode, own in rows.items():
         found = [nodes[i] for i in own]
-        missing = sorted(whole - set(found), key=list(place).index)
+        missing = sorted(whole - set(found), key=place.__getitem__)
         if missing:
             listed = ", ".join(missing[:5]) + (" ..." if len(missing) > 5 else "")
             allowed = f"lacks {len(missing)} of the nodes that other modes have: {listed}"
             raise InputError(f"mode {mode}", None, allowed, "Write every mode at the same nodes")
         if len(found) != len(whole):
-            double = next(n for n in found if found.count(n) > 1)
+            double = Counter(found).most_common(1)[0][0]
             remedy = "One line for each mode and node"
             raise InputError(f"mode {mode}: node", double, "is given twice", remedy)
     return list(rows), [np.array(own) for own in rows.values()]
@@ -196,7 +209,7 @@ def _read_masses(
         for i, column in enumerate(["mass", *_INERTIAS]):
             if column not in table.cells:
                 continue
-            factor = MASSES[mass] * (PER_METRE[length] ** -2 if i else 1.0)
+            factor = factor_of("units[2]", mass, "mass") * (per_metre(length) ** -2 if i else 1.0)
             for label, value in zip(labels, table.numbers(column), strict=True):
                 if label not in place:
                     near = errors.did_you_mean(label, place)
@@ -268,15 +281,15 @@ def export_modes(deck: Deck, folder: str | Path, units: Sequence[str] = ("m", "k
     InputError
         Unknown units.
     """
-    folder = Path(folder)
+    errors.instance("deck", deck, Deck)
     length, mass = model_units(units)
-    x, columns = _at_thirds(deck, PER_METRE[length], math.sqrt(MASSES[mass]))
+    x, columns = _at_thirds(deck, per_metre(length), math.sqrt(factor_of("units[2]", mass, "mass")))
     head = f"# units: {length}, {mass}\n"
-    places = [f"{i},{_text(v * PER_METRE[length])},0,0\n" for i, v in enumerate(x, start=1)]
+    places = [f"{i},{_text(v * per_metre(length))},0,0\n" for i, v in enumerate(x, start=1)]
     rows = []
     modes = zip(deck.frequencies_hz, deck.damping_ratios, deck.mode_names, strict=True)
     for m, (f, ratio, name) in enumerate(modes):
-        start = f"{m + 1},{_text(f)},{_text(ratio)},{name},"
+        start = f"{m + 1},{_text(f)},{_text(ratio)},{_cell(name)},"
         for i, row in enumerate(columns[:, m], start=1):
             rows.append(f"{start}{i},{','.join(map(_text, row))}\n")
     header = f"mode,frequency_hz,damping_ratio,name,node,{','.join(_SHAPES)}\n"
@@ -285,9 +298,13 @@ def export_modes(deck: Deck, folder: str | Path, units: Sequence[str] = ("m", "k
         "modes.csv": [head, header, *rows],
         "deck.toml": _deck_file(deck),
     }
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, text in files.items():
-        (folder / name).write_text("".join(text), encoding="utf-8", newline="\n")
+    try:
+        folder = Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in files.items():
+            (folder / name).write_text("".join(text), encoding="utf-8", newline="\n")
+    except (TypeError, ValueError) as error:
+        raise InputError("folder", folder, f"is not the path of a folder ({error})") from None
     return folder / "deck.toml"
 
 
@@ -312,7 +329,7 @@ def _at_thirds(deck: Deck, per_metre: float, mass: float) -> tuple[np.ndarray, n
 
 def _deck_file(deck: Deck) -> list[str]:
     """Return the lines of the deck file beside the tables."""
-    lines = [f"name = {json.dumps(deck.name)}\n"]
+    lines = [f"name = {_quoted(deck.name)}\n"]
     lines += ['note = "modes only: no section forces, reactions or self-weight"\n']
     lines += [f"width = {_text(deck.width)}\n"] if deck.width else []
     lines += [f"track_height = {_text(deck.track_height)}\n"] if deck.track_height else []
@@ -320,9 +337,27 @@ def _deck_file(deck: Deck) -> list[str]:
     if deck.supports:
         lines += [f"supports = [{', '.join(map(_text, deck.supports))}]\n"]
     if deck.tracks:
-        tracks = [f"{json.dumps(k)} = {_text(y)}\n" for k, y in deck.tracks.items()]
+        tracks = [f"{_quoted(k)} = {_text(y)}\n" for k, y in deck.tracks.items()]
         lines += ["\n[tracks]\n", *tracks]
     return lines
+
+
+def _cell(text: str) -> str:
+    """Return a text as a cell of a CSV file."""
+    inside = _encodable(text).replace('"', '""')
+    return f'"{inside}"' if re.search('[",;#\\r\\n]', inside) else inside
+
+
+def _quoted(text: str) -> str:
+    """Return a text as TOML writes it."""
+    escaped = _encodable(text).replace("\\", "\\\\").replace('"', '\\"')
+    letters = (f"\\u{ord(c):04x}" if ord(c) < 32 or ord(c) == 127 else c for c in escaped)
+    return f'"{"".join(letters)}"'
+
+
+def _encodable(text: str) -> str:
+    """Return a text without halves of letters, as names of files may have: UTF-8 has none."""
+    return text.encode("utf-8", "replace").decode()
 
 
 def _text(value: float) -> str:

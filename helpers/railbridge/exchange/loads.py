@@ -11,6 +11,7 @@ line of nodes carry the rail.
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -20,15 +21,18 @@ import numpy as np
 
 from .. import errors
 from ..coupling import Coupling
-from ..errors import InputError
-from ..units import MASSES, PER_METRE
+from ..errors import InputError, brief
+from ..settings import refuse_bytes
+from ..units import factor_of, per_metre
 from .nodes import RailLine
 
 __all__ = ["FORMATS", "NodalLoads", "export_loads", "nodal_loads"]
 
 FORMATS = ("csv", "abaqus")
 _COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
-_FORCE_UNITS = {("m", "kg"): "N", ("mm", "t"): "N", ("m", "t"): "kN"}
+_COPIES = 4
+"""Of all loads, that stand in memory together while they are moved to the nodes."""
+_FORCE_UNITS = {("m", "kg"): "N", ("mm", "t"): "N", ("m", "t"): "kN", ("ft", "slug"): "lbf"}
 """Names of the unit of force of consistent sets, by their units of length and mass."""
 
 
@@ -63,6 +67,8 @@ class NodalLoads:
         nodes as in ``line.nodes``.
     """
 
+    __repr__ = brief
+
     line: RailLine
     time: np.ndarray
     values: np.ndarray
@@ -74,11 +80,13 @@ class NodalLoads:
         """
         length, mass = self.line.units
         # A consistent set has mass times length per second squared as its force.
-        force = PER_METRE[length] / MASSES[mass]
+        force = per_metre(length) / factor_of("units[2]", mass, "mass")
         turn = self.line.turn
         forces = np.einsum("ji,njt->nit", turn, self.values[:, :3]) * force
-        couples = np.einsum("ji,njt->nit", turn, self.values[:, 3:]) * force * PER_METRE[length]
-        name = _FORCE_UNITS.get((length, mass), f"{mass} {length}/s2")
+        couples = np.einsum("ji,njt->nit", turn, self.values[:, 3:]) * force * per_metre(length)
+        # Masses named after a force, as lbf s2/in, are those of a set in which it is the unit.
+        usual = mass.removesuffix(f" s2/{length}") if mass.endswith(f" s2/{length}") else None
+        name = usual or _FORCE_UNITS.get((length, mass), f"{mass} {length}/s2")
         return np.concatenate([forces, couples], axis=1), name
 
     def functions(self) -> Iterator[tuple[str, int, np.ndarray]]:
@@ -124,6 +132,10 @@ def nodal_loads(run: Run, line: RailLine | None = None, couples: bool | None = N
         allowed = f"must be as long as the deck, {coupling.deck.length:g} m"
         raise InputError("line", line.length, allowed, "Choose nodes from end to end of the deck")
     couples = not line.paired if couples is None else errors.boolean("couples", couples)
+    count, samples = len(line.nodes), len(coupling.time)
+    needed = 8.0 * _COPIES * 6 * count * samples
+    remedy = "Use a coarser line, a larger time step or a shorter tail"
+    refuse_bytes("line", count, needed, f"loads of so many nodes at {samples} instants", remedy)
     axis = np.zeros((len(line.x), 5, len(coupling.time)))
     loads = coupling.station_loads(run.passes[run.iteration])
     for delay, start, load in zip(coupling.load_delays, coupling.loads.starts, loads, strict=True):
@@ -242,7 +254,7 @@ def _write_csv(loads: NodalLoads, path: Path) -> None:
         own = unit if component < 3 else f"{unit} {loads.line.units[0]}"
         header.append(f"node {node} {_COMPONENTS[component]} ({own})")
     table = np.array([loads.time, *[f for _, _, f in functions]]).T
-    with path.open("w", encoding="utf-8", newline="") as file:
+    with path.open("w", encoding="utf-8", errors="replace", newline="") as file:
         csv.writer(file, lineterminator="\n").writerow(header)
         np.savetxt(file, table, fmt="%.9g", delimiter=",")
 
@@ -254,7 +266,10 @@ def _write_abaqus(loads: NodalLoads, path: Path, prefix: str) -> None:
     head += "** step time 0: the first axle is at the first node\n"
     amplitudes, cloads = [head], [head]
     for label, component, function in loads.functions():
-        name = f"RB_{''.join(c if c.isalnum() else '_' for c in label)}_{component + 1}"
+        if re.fullmatch(r"[!-~]+", prefix + label) is None or "," in prefix + label:
+            allowed = "cannot name a node in an Abaqus file"
+            raise InputError("line", prefix + label, allowed, "Use form = 'csv', or node numbers")
+        name = f"RB_{re.sub('[^A-Za-z0-9]', '_', label)}_{component + 1}"
         amplitudes.append(f"*AMPLITUDE, NAME={name}\n{_pairs(loads.time, function)}")
         cloads.append(f"*CLOAD, AMPLITUDE={name}\n{prefix}{label}, {component + 1}, 1.0\n")
     other = path.with_name(f"{path.stem}_loads{path.suffix}")

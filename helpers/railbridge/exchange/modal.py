@@ -23,25 +23,28 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .. import errors
-from ..decks import Deck, rayleigh_ratio
-from ..errors import InputError
+from ..bounds import BOUNDS, frequency_off, usual_frequencies
+from ..decks import Deck, cut_group, rayleigh_ratio
+from ..errors import InputError, Remark, ResultWarning, brief
 from ..guideways import PiecewiseCubic
+from ..plausibility import UNUSUAL, first_vertical, longest_span, scale_in_doubt
 from .interpolation import cubics, hermite, parabolas, spline
 from .nodes import Nodes, RailLine
 
 __all__ = ["ModalModel", "Orthogonality", "deck_from_modes"]
 
-_LIKELY_MASS = 100.0, 300e3
-"""Mass per metre of decks, kg/m, with room to spare.
+_FAR = 10.0
+"""How far a first frequency may lie off the range of EN 1991-2 without being refused."""
 
-From foot bridges to ballasted concrete with several tracks.
-"""
+
+_STILL = 1e-3
+"""Motion in the middle of a span, share of the largest anywhere, below which it stands still."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +93,8 @@ class ModalModel:
     masses : ndarray, shape (n, 4), or None
         Mass (kg) and inertia about x, y, z (kg m2) of every node.
     """
+
+    __repr__ = brief
 
     nodes: Nodes
     frequencies_hz: np.ndarray
@@ -184,10 +189,16 @@ def deck_from_modes(
         remedy = "Does it run along the deck's bearings?"
         raise InputError("line", None, "stands still in every mode", remedy)
     kept = np.flatnonzero(np.sqrt(size.sum(axis=1) / size.sum(axis=1).max()) > 1e-6)
+    everything = kept
     if count is not None:
         kept = kept[: errors.integer("count", count, least=1, most=len(kept))]
+    supports = _checked_supports(supports, line.length)
     frequencies = model.frequencies_hz[kept]
-    _refuse_units(line, supports, frequencies, size[kept], unusual)
+    remarks = cut_group("modes.count", model.frequencies_hz[everything], len(kept))
+    remarks += _still(functions, kept, supports)
+    rail = PiecewiseCubic(functions.edges, functions.coefficients[:, :, kept])
+    if not unusual:
+        _refuse_units(line, supports, frequencies, rail, size[kept])
     if model.masses is None:
         _warn_of_overlap(model, motion, kept)
     if damping is not None and np.isscalar(damping):
@@ -200,18 +211,51 @@ def deck_from_modes(
     else:
         remedy = "Add the column damping_ratio to the modes, or damping = { modal = 0.01 } to the "
         raise InputError("damping", None, "is missing", remedy + "deck")
-    return Deck(
+    made = Deck(
         name=name,
         length=line.length,
         frequencies_hz=frequencies,
         damping_ratios=ratios,
         mode_names=_names(model, size, kept),
-        shapes=PiecewiseCubic(functions.edges, functions.coefficients[:, :, kept]),
-        supports=tuple(float(x) for x in supports),
+        shapes=rail,
+        supports=supports,
         tracks=dict(tracks or {}),
         width=width,
         track_height=track_height,
+        remarks=tuple(remarks),
     )
+    accepted = unusual and scale_in_doubt(made)
+    return replace(made, remarks=(*made.remarks, Remark(*UNUSUAL))) if accepted else made
+
+
+def _still(functions: PiecewiseCubic, kept: np.ndarray, supports: Sequence[float]) -> list[Remark]:
+    """Name a span that no mode moves up and down, as where a program was asked for too few."""
+    edges = np.unique([functions.edges[0], functions.edges[-1], *map(float, supports)])
+    inside = (edges[1:] + edges[:-1]) / 2
+    moving = np.abs(functions(inside)[:, kept, 1]).max(axis=1)
+    everywhere = np.linspace(edges[0], edges[-1], 201)
+    largest = np.abs(functions(everywhere)[:, kept, 1]).max()
+    if largest == 0.0:
+        return [ResultWarning("modes", "move nothing up and down: vertical results are null.")]
+    still = np.flatnonzero((moving < _STILL * largest) & (np.diff(edges) > 1e-6 * edges[-1]))
+    if not len(still):
+        return []
+    i = still[0]
+    text = (
+        f"move nothing up and down from x = {edges[i]:g} to {edges[i + 1]:g} m"
+        + f", nor in {len(still) - 1} other spans" * (len(still) > 1)
+        + ": too few modes were written."
+    )
+    return [ResultWarning("modes", text)]
+
+
+def _checked_supports(supports: Sequence[float], length: float) -> tuple[float, ...]:
+    """Return the places of bearing lines, m, ascending; refuse two at one place."""
+    found = np.sort(errors.places("supports", supports, (0.0, length), slack=errors.ROUNDED))
+    if np.any(np.diff(found) < 1e-3 * length):
+        allowed = "two bearing lines stand at one place"
+        raise InputError("supports", found, allowed, "Give each line once, m from the first node")
+    return tuple(found.tolist())
 
 
 def _along(
@@ -325,36 +369,30 @@ def _refuse_units(
     line: RailLine,
     supports: Sequence[float],
     frequencies: np.ndarray,
+    functions: PiecewiseCubic,
     size: np.ndarray,
-    unusual: bool,
 ) -> None:
     """Refuse a first frequency or a mass per metre beyond those of bridges by orders of magnitude.
 
-    First frequencies of simple spans L (m) lie between 80 / L (to 20 m) or 23.58 L^-0.592 and
-    94.76 L^-0.748 Hz (EN 1991-2, 6.4.4). A mass-normalised mode in which the deck moves as a whole
-    has an integral of phi^2 of about 1 / mass per metre.
+    That of the first mode that moves up and down, if there is one. A mass-normalised mode in which
+    the deck moves as a whole has an integral of phi^2 of about 1 / mass per metre.
     """
-    span = float(np.max(np.diff(np.sort(supports)))) if len(supports) > 1 else line.length
-    low, high = (80 / span if span <= 20 else 23.58 * span**-0.592), 94.76 * span**-0.748
-    low, high = min(low, high), max(low, high)
-    first = float(frequencies[0])
-    off = max(low / first, first / high)
-    usual = f"bridges of {span:.3g} m have about {low:.2g} to {high:.2g} Hz"
-    if off > 10 and not unusual:
-        allowed = f"lies an order of magnitude away: {usual}"
+    vertical = first_vertical(size)
+    mode = 0 if vertical is None else vertical
+    x = np.linspace(0.0, line.length, 201)
+    shape = None if vertical is None else functions(x)[:, mode, 1]
+    span = longest_span(supports, line.length, x, shape)
+    first = float(frequencies[mode])
+    if abs(frequency_off(first, span)) > _FAR:
+        allowed = f"lies an order of magnitude away: {usual_frequencies(span)}"
         remedy = "Check the units of length (mm or m?) and of frequency (Hz, not rad/s); "
         remedy += "unusual = true if the deck is so"
         raise InputError("modes: first frequency", first, allowed, remedy)
-    if off > 3 and not unusual:
-        warnings.warn(
-            f"modes: first frequency {first:.3g} Hz: {usual}. Are the units right (rad/s?)",
-            stacklevel=4,
-        )
-    vertical = np.flatnonzero(np.argmax(size, axis=1) == 1)
-    mass = 1.0 / size[vertical[0], 1] if len(vertical) else 1.0 / size[0].max()
-    if not _LIKELY_MASS[0] < mass < _LIKELY_MASS[1] and not unusual:
+    usual = BOUNDS["mass"]
+    mass = 1.0 / (size[0].max() if vertical is None else size[vertical, 1])
+    if not usual.low < mass < usual.high:
         allowed = f"make the deck {mass:.3g} kg per metre"
-        allowed += f", bridges have {_LIKELY_MASS[0]:g} to {_LIKELY_MASS[1]:g}"
+        allowed += f", bridges have {usual.low:g} to {usual.high:g}"
         remedy = "Check the unit of mass (kg or t?); shapes scaled to a largest value of 1 need "
         remedy += "the column modal_mass"
         raise InputError("modes: shapes", None, allowed, remedy)

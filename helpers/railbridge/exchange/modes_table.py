@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
-from .. import errors
 from ..decks import Deck
-from ..errors import Range, check_fields, within
+from ..errors import Range, brief, check_fields, within
 from .files import read_modes
 from .modal import deck_from_modes
 from .nodes import (
@@ -48,7 +48,8 @@ class ModesTable:
         CSV file of the nodal masses: node, mass, inertia_x, inertia_y, inertia_z. With it the modes
         are checked for orthogonality.
     units : (length, mass), optional
-        Units of the model, as ["mm", "t"]; needed where the files do not say them.
+        Units of the model, as ["mm", "t"] or ["in", "lbf s2/in"]; a unit without a name is the
+        number of metres or kilograms that it is. Needed where the files do not say them.
     axes : three of x, -x, y, -y, z, -z
         The model's axes that point forward, left and up.
     rail : table, optional
@@ -65,10 +66,12 @@ class ModesTable:
         Whether frequencies and masses beyond those of bridges are accepted.
     """
 
+    __repr__ = brief
+
     nodes: str
     modes: str
     masses: str | None = None
-    units: tuple[str, ...] | None = None
+    units: tuple[str | float, ...] | None = None
     axes: tuple[ModelAxis, ModelAxis, ModelAxis] = ("x", "y", "z")
     rail: NodeChoice | NodeRows | None = None
     axis: AxisPlace | None = None
@@ -109,7 +112,6 @@ class ModesTable:
         """
         model = read_modes(self.nodes, self.modes, self.masses, self.units, self.axes)
         line = model.nodes.line(self.rail, self.axis)
-        errors.numbers("supports", self.supports, least=0.0, most=line.length, unit="m")
         with within(names=_IN_THE_TABLE):
             return deck_from_modes(
                 model,
@@ -145,5 +147,8 @@ def stamps(content: Mapping[str, Any]) -> list[int]:
     own = content.get("modes")
     own = own if isinstance(own, Mapping) else {}
     paths = [Path(own[k]) for k in _PATHS if isinstance(own.get(k), str)]
-    found = [path.stat() for path in paths if path.is_file()]
+    found = []
+    for path in paths:
+        with suppress(OSError, ValueError):  # reading it says what is wrong
+            found.append(path.stat())
     return [n for s in found for n in (s.st_mtime_ns, s.st_size)]

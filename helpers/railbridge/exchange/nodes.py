@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar, get_args
@@ -10,8 +10,8 @@ from typing import Annotated, Any, Literal, TypeVar, get_args
 import numpy as np
 
 from .. import errors
-from ..errors import InputError, Range, check_fields, within
-from ..units import MASSES, PER_METRE
+from ..errors import InputError, Range, brief, check_fields, within
+from ..units import factor_of, per_metre, spelled
 from .tables import Columns, labelled, read_columns
 
 __all__ = [
@@ -26,21 +26,28 @@ ModelAxis = Literal["x", "-x", "y", "-y", "z", "-z"]
 # ---- units and axes of a model
 
 
-def model_units(units: Sequence[str]) -> tuple[str, str]:
+def model_units(units: Sequence[str | float]) -> tuple[str, str]:
     """Return the units of length and mass that are named; kg where only a length is.
+
+    A unit without a name is the number of metres or kilograms that it is.
 
     Raises
     ------
     InputError
         Naming ``units``: not one or two, or unknown.
     """
-    several = isinstance(units, Iterable) and not isinstance(units, (str, Mapping))
-    named = tuple(units) if several else ()
+    named = tuple(units) if errors.is_list(units) else ()
     if len(named) not in (1, 2):
         remedy = "For instance units = ['m', 'kg'], or '# units: m, kg' in the file"
         raise InputError("units", units, "must name a length and a mass", remedy)
-    length, mass = (*named, "kg")[:2]
-    return errors.choice("units[1]", length, PER_METRE), errors.choice("units[2]", mass, MASSES)
+    for i, (unit, dimension) in enumerate(zip(named, ("length", "mass"), strict=False), start=1):
+        factor_of(f"units[{i}]", unit, dimension)
+    length, mass = (*map(_unit, named), "kg")[:2]
+    return length, mass
+
+
+def _unit(unit: str | float) -> str:
+    return spelled(unit) if isinstance(unit, str) else repr(unit)
 
 
 def stated_units(table: Columns, given: Sequence[str] | None) -> tuple[str, str]:
@@ -59,7 +66,7 @@ def stated_units(table: Columns, given: Sequence[str] | None) -> tuple[str, str]
         return asked
     with within(source=table.name):
         found = model_units(table.units)
-    if asked is not None and tuple(given)[: len(table.units)] != table.units:
+    if asked is not None and asked[: len(table.units)] != found[: len(table.units)]:
         allowed = f"{table.name} itself says {', '.join(table.units)}"
         raise InputError("units", list(given), allowed, "Remove the wrong one")
     return found
@@ -76,9 +83,9 @@ def model_axes(axes: Sequence[ModelAxis]) -> np.ndarray:
         Naming ``axes``: not three axes of a right-handed set.
     """
     allowed = "must name the model's axes that point forward, left and up"
-    several = isinstance(axes, Iterable) and not isinstance(axes, (str, Mapping))
-    named = tuple(axes) if several else ()
-    if len(named) != 3 or not all(a in get_args(ModelAxis) for a in named):
+    named = tuple(axes) if errors.is_list(axes) else ()
+    known = get_args(ModelAxis)
+    if len(named) != 3 or not all(isinstance(a, str) and a in known for a in named):
         remedy = "A model with y up and x forward has axes = ['x', '-z', 'y']"
         raise InputError("axes", axes, allowed, remedy)
     turn = np.zeros((3, 3))
@@ -115,7 +122,7 @@ def read_nodes(
     length, mass = stated_units(table, units)
     labels = table.unique_labels("node")
     turn = model_axes(axes)
-    places = np.stack([table.numbers(c) for c in "xyz"], axis=1) / PER_METRE[length] @ turn.T
+    places = np.stack([table.numbers(c) for c in "xyz"], axis=1) / per_metre(length) @ turn.T
     cubic = table.remarks.get("pieces") == ("cubic",)
     return Nodes(tuple(labels), errors.frozen(places), (length, mass), turn, cubic)
 
@@ -139,6 +146,8 @@ class NodeChoice:
         Numbers or names of the nodes, instead of a place.
     """
 
+    __repr__ = brief
+
     y: Annotated[float, Range(unit="m")] | None = None
     z: Annotated[float, Range(unit="m")] | None = None
     within: Annotated[float, Range(above=0.0, unit="m")] = 0.01
@@ -152,7 +161,7 @@ class NodeChoice:
             if f.name != "nodes" and getattr(self, f.name) != f.default:
                 remedy = "Choose nodes by place or one by one"
                 raise InputError(f.name, getattr(self, f.name), "cannot stand beside nodes", remedy)
-        if isinstance(self.nodes, (str, bytes, Mapping)) or not isinstance(self.nodes, Iterable):
+        if not errors.is_list(self.nodes):
             raise InputError("nodes", self.nodes, "must be a list of nodes")
         labels = tuple(labelled(n) for n in self.nodes)
         for label in labels:
@@ -262,6 +271,8 @@ class Nodes:
         The nodes stand at ends and thirds of pieces, in each of which shapes are cubics: as
         `export_modes` writes them.
     """
+
+    __repr__ = brief
 
     labels: tuple[str, ...]
     places: np.ndarray
@@ -374,6 +385,8 @@ class RailLine:
     units, turn, cubic
         See `Nodes`.
     """
+
+    __repr__ = brief
 
     labels: tuple[tuple[str, ...], ...]
     x: np.ndarray

@@ -29,15 +29,15 @@ from scipy.interpolate import CubicSpline
 from .. import errors
 from ..coupling import Coupling, DeckState, ForcesAdded, prepare
 from ..decks import History
-from ..errors import InputError, within
+from ..errors import InputError, brief, within
 from ..guideways import Guideway, PiecewiseCubic
-from ..settings import check
+from ..settings import check, refuse_bytes
 from ..tracks import FadeIn, Track
 from ..trains import AnyTrain
-from ..units import PER_METRE
+from ..units import per_metre
 from .interpolation import spline
 from .loads import NodalLoads, export_loads, nodal_loads
-from .nodes import RailLine
+from .nodes import RailLine, model_units
 from .tables import Columns, read_columns
 
 __all__ = [
@@ -68,6 +68,8 @@ class Staggered:
     felt : DeckState or None
         The nodes' motion that the last forces answer to.
     """
+
+    __repr__ = brief
 
     train: AnyTrain
     track: Track
@@ -102,6 +104,8 @@ def nodal_guideway(line: RailLine, track_height: float = 0.0) -> Guideway:
     Its shapes interpolate between the nodes by cubic splines.
     """
     n = len(line.x)
+    needed = 8.0 * 48 * n**2  # of all coordinates, and of the splines they are made of
+    refuse_bytes("line", n, needed, "shapes of so many nodes", "Use a coarser line")
     cardinal = spline(line.x, np.eye(n))
     coefficients = np.zeros((n - 1, 4, 3 * n, 3))
     for c in range(3):
@@ -159,6 +163,8 @@ class NodeMotion:
         carry the rail.
     """
 
+    __repr__ = brief
+
     time: np.ndarray
     y: np.ndarray
     z: np.ndarray
@@ -186,11 +192,11 @@ def read_motion(path: str | Path, line: RailLine) -> NodeMotion:
                 raise InputError(f"column {column}", None, allowed, "Write zeros if none")
         length = line.units[0]
         if table.units is not None:
-            length = errors.choice("units[1]", (*table.units, "")[0], PER_METRE)
+            length = model_units(table.units)[0]
         time, index = _instants(table, line)
     zeros = np.zeros(len(table.lines))
     found = np.array([table.numbers(c) if c in table.cells else zeros for c in _MOTIONS])
-    moved = np.einsum("ij,jnt->int", line.turn, found[:3][:, index]) / PER_METRE[length]
+    moved = np.einsum("ij,jnt->int", line.turn, found[:3][:, index]) / per_metre(length)
     turned = np.einsum("ij,jnt->int", line.turn, found[3:][:, index])
     return NodeMotion(time, moved[1], moved[2], turned[0])
 
@@ -277,15 +283,16 @@ def _refuse_history(motion: NodeMotion, axis: np.ndarray, needed: np.ndarray) ->
     if len(time) < 4 or np.any(np.diff(time) <= 0):
         allowed = "must ascend and hold at least 4 instants"
         raise InputError("motion.time", None, allowed, "Sort it, and write more instants")
-    if not np.isfinite(axis).all():
-        raise InputError("motion", None, "must be finite", "Did the other program diverge?")
+    size = np.abs(axis).max(initial=0.0)
+    if not size < 1e6:  # squares of such motions overflow, and NaN is not less
+        allowed = "must be finite, and less than 1e6 m"
+        raise InputError("motion", None, allowed, "Did the other program diverge?")
     slack = 1.5 * float(np.median(np.diff(time)))
     if time[0] > needed[0] + slack or time[-1] < needed[-1] - slack:
         allowed = f"must cover the crossing, {needed[0]:g} to {needed[-1]:g} s"
         allowed += ", from the first axle's entrance on"
         remedy = "Compute longer, or shift its zero"
         raise InputError("motion.time", [float(time[0]), float(time[-1])], allowed, remedy)
-    size = np.abs(axis).max()
     if size > 0.0 and np.abs(axis[:, 0]).max() > 0.05 * size:
         allowed = "is not at rest at the start, where only the first axle stands on its end"
         remedy = "Leave out the deck's own weight: the track is laid level on the sagged deck"
@@ -328,7 +335,7 @@ def equivalent_irregularity(step: Staggered, car: int = 1, wheel: int = 1) -> Hi
     if own is None:
         allowed = "no such (car, wheel) in this train"
         raise InputError("wheel", (car, wheel), allowed, "Both are counted from 1")
-    ahead = vehicle.length / 2 - own.x if s.excitation == "car" and vehicle is not None else 0.0
+    ahead = vehicle.front - own.x if s.excitation == "car" and vehicle is not None else 0.0
     x = s.speed * step.time - own.delay + ahead
     deck = np.zeros((2, len(step.time)))
     if step.felt is not None:

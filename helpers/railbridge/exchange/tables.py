@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +14,9 @@ from typing import Any
 import numpy as np
 
 from .. import errors
-from ..errors import InputError
+from ..errors import InputError, brief
+from ..units import has_decimal_comma, written
+from .reading import read_text
 
 __all__ = ["Columns", "labelled", "read_columns"]
 
@@ -30,17 +34,27 @@ class Columns:
         Line of each row in the file, for messages.
     remarks : dict of tuple of str
         Comments of the form ``# units: mm, t``: the words after the colon by the word before it.
+    comma : bool
+        Whether numbers have a decimal comma; cells are then separated by semicolons or tabs.
     """
+
+    __repr__ = brief
 
     name: str
     cells: dict[str, list[str]]
     lines: list[int]
     remarks: dict[str, tuple[str, ...]]
+    comma: bool = False
 
     @property
     def units(self) -> tuple[str, ...] | None:
         """What the file itself says of its units."""
         return self.remarks.get("units")
+
+    def number(self, field: str, cell: str) -> float:
+        """Return a cell as a finite number, or refuse it for what it is."""
+        with errors.within(source=self.name):
+            return written(field, cell, self.comma)
 
     def numbers(self, column: str) -> np.ndarray:
         """Return a column as finite numbers, naming file and line of the first that is none."""
@@ -48,10 +62,10 @@ class Columns:
         try:
             values = np.array(cells, dtype=float)
         except ValueError:
-            values = np.array([_float(c) for c in cells])
-        for i in np.flatnonzero(~np.isfinite(values))[:1]:
-            field, remedy = f"line {self.lines[i]}: {column}", "Use a point as decimal mark"
-            raise InputError(field, cells[i], "must be a finite number", remedy, self.name)
+            values = np.array([math.nan])
+        if self.comma or not np.all(np.abs(values) <= 1e30):
+            named = zip(self.lines, cells, strict=True)
+            values = np.array([self.number(f"line {line}: {column}", c) for line, c in named])
         return values
 
     def labels(self, column: str) -> list[str]:
@@ -91,7 +105,10 @@ def read_columns(
     *,
     may_be_empty: bool = False,
 ) -> Columns:
-    """Read a CSV file: UTF-8, comma separated, with a header; lines that start with # are comments.
+    """Read a CSV file: UTF-8, with a header; lines that start with # are comments.
+
+    Cells are separated by commas; or by semicolons or tabs, as the header shows, and numbers may
+    then have a decimal comma. Optional columns that are blank throughout are left out.
 
     Parameters
     ----------
@@ -107,66 +124,112 @@ def read_columns(
         No such file or no readable text (named as ``path``); or, with the name of the file as
         source, a column missing, unknown or given twice, a row of another length, or no rows.
     """
-    path = Path(path)
     try:
-        rows, remarks = _read(path)
-    except FileNotFoundError:
-        remedy = "A path in a deck file is relative to that file"
-        raise InputError("path", path.name, "no such file", remedy) from None
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        allowed = f"is not a readable CSV file ({error})"
-        raise InputError("path", path.name, allowed, "Save it as UTF-8 text") from None
+        path = Path(path)
+        text = read_text(path)
+    except TypeError:
+        raise InputError("path", path, "must be the path of a CSV file") from None
     with errors.within(source=path.name):
+        separator = _separator(text, [*required, *optional])
+        rows, remarks = _read(text, separator)
         header = [cell.strip() for cell in rows[0][1]] if rows else []
         _check_header(header, required, optional)
         for line, row in rows[1:]:
             if len(row) != len(header):
                 allowed = f"must have {len(header)} cells, it has {len(row)}"
-                remedy = "Put cells that contain a comma between double quotes"
-                raise InputError(f"line {line}", ",".join(row), allowed, remedy)
+                raise InputError(f"line {line}", separator.join(row), allowed, _REMEDIES[separator])
         if len(rows) < 2 and not may_be_empty:
             raise InputError(
                 "rows", None, "there are none below the header", "Is it the right file?"
             )
     cells = {h: [row[i].strip() for _, row in rows[1:]] for i, h in enumerate(header)}
-    return Columns(path.name, cells, [line for line, _ in rows[1:]], remarks)
+    cells = {h: c for h, c in cells.items() if h not in optional or any(c) or not c}
+    comma = separator != "," and any(has_decimal_comma(c) for own in cells.values() for c in own)
+    return Columns(path.name, cells, [line for line, _ in rows[1:]], remarks, comma)
 
 
-def _read(path: Path) -> tuple[list[tuple[int, list[str]]], dict[str, tuple[str, ...]]]:
-    """Return the rows of a file that are not blank, each with its line, and what comments say."""
+_REMEDIES = {
+    ",": "Use a point as decimal mark, and put cells that contain a comma between double quotes",
+    ";": "Put cells that contain a semicolon between double quotes",
+    "\t": "Put cells that contain a tab between double quotes",
+}
+"""What to try where a row has another number of cells than the header, by what separates them."""
+
+
+def _is_comment(number: int, line: str) -> bool:
+    # Spreadsheets put a comment that has commas between quotes, and "sep=;" first.
+    bare = line.lstrip(' \t"')
+    return bare.startswith("#") or (number == 1 and bare[:4].lower() == "sep=")
+
+
+def _words(value: str) -> tuple[str, ...]:
+    """Return what a comment lists, separated by commas or semicolons, or else by blanks."""
+    parts = re.split("[,;]", value) if re.search("[,;]", value) else value.split()
+    return tuple(part.strip() for part in parts if part.strip())
+
+
+def _separator(text: str, known: Sequence[str]) -> str:
+    """Return what separates the cells of the header: what makes most columns that are known."""
+    header = ""
+    for number, line in enumerate(io.StringIO(text), start=1):
+        if line.strip(" ,;\t\n") and not _is_comment(number, line):
+            header = line
+            break
+
+    def columns(separator: str) -> int:
+        return sum(cell.strip(' "\n') in known for cell in header.split(separator))
+
+    return max(_REMEDIES, key=columns)
+
+
+def _read(
+    text: str, separator: str
+) -> tuple[list[tuple[int, list[str]]], dict[str, tuple[str, ...]]]:
+    """Return the rows that are not blank, each with its line, and what comments say."""
     rows: list[tuple[int, list[str]]] = []
     remarks: dict[str, tuple[str, ...]] = {}
-    start, complete = 0, True
+    start, complete = 1, True
 
     def uncommented() -> Iterator[str]:
         nonlocal start, complete
-        for number, line in enumerate(path.read_text(encoding="utf-8-sig").splitlines(), start=1):
+        for number, line in enumerate(io.StringIO(text, newline=""), start=1):
             # A cell between quotes may run over several lines, whatever they start with.
-            if complete and line.lstrip().startswith("#"):
-                key, _, value = line.strip(" #,;\t").partition(":")
-                remarks[key.strip().lower()] = tuple(value.replace(",", " ").split())
+            if complete and _is_comment(number, line):
+                key, _, value = line.strip(' "#,;\t\r\n').partition(":")
+                remarks[key.strip().lower()] = _words(value)
                 continue
             if complete:
                 start, complete = number, False
             yield line
 
-    for row in csv.reader(uncommented()):
-        complete = True
-        if any(cell.replace(";", "").strip() for cell in row):
-            rows.append((start, row))
+    try:
+        for row in csv.reader(uncommented(), delimiter=separator, strict=True):
+            complete = True
+            if any(cell.replace(";", "").strip() for cell in row):
+                rows.append((start, row))
+    except csv.Error as error:
+        remedy = "Is a double quote not closed, or a cell too long?"
+        raise InputError(f"line {start}", None, f"cannot be read ({error})", remedy) from None
     return rows, remarks
 
 
 def _check_header(header: list[str], required: Sequence[str], optional: Sequence[str]) -> None:
-    """Refuse columns that are given twice, unknown or missing."""
+    """Refuse columns that are given twice, unknown or missing.
+
+    Of a header without any known name nothing is said: it may be somebody else's file.
+    """
     known = [*required, *optional]
+    if header and not any(name.strip() in known for cell in header for name in cell.split(";")):
+        remedy = "Columns: " + ",".join(known) + ". Is it the right file?"
+        if any(name in known for cell in header for name in cell.split()):
+            remedy = "Separate cells by commas or semicolons"
+        raise InputError("header", None, "has none of the columns of such a table", remedy)
     for column in header:
         if header.count(column) > 1:
             raise InputError(f"column {column}", None, "appears more than once")
         if column not in known:
             near = errors.did_you_mean(column, known)
-            remedy = "Separate cells by commas" if ";" in column else near
-            raise InputError(f"column {column}", None, "unknown column", remedy)
+            raise InputError(f"column {column}", None, "unknown column", near)
     for column in required:
         if column not in header:
             raise InputError(f"column {column}", None, "is missing", "Columns: " + ",".join(known))

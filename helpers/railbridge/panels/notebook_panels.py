@@ -11,6 +11,7 @@ from .. import plots
 from ..cases.definition import Case
 from ..cases.definition import case as load_case
 from ..decks import rayleigh
+from ..errors import Remark
 from ..plots.forces import car_components, mark_instant
 from ..plots.scene import crossing_at
 from ..plots.style import mode_in_words
@@ -137,6 +138,11 @@ def _iteration_in_words(stages: Stages, case: Case, values: Values, plain: bool 
     return f"{_conditions_in_words(values)}{sag} ({loads}), {before}; {change}."
 
 
+def _of_last(case: Case, stages: Stages) -> list[Remark]:
+    """Return the remarks on a run that is shown by iteration: those on its last one."""
+    return case.remarks(stages[max(stages)])
+
+
 _SAG_CODE = ".displacement(x={x:g}).extreme('displacement_z')  # m, s"
 
 
@@ -203,6 +209,7 @@ def rigid_forces(case: Case | None = None) -> Panel:
         draw,
         say,
         compute=compute,
+        remarks=lambda case, result: case.remarks(result[0]),
         code="max(abs(run.car_forces(1, static=False)['force_z']))  # N, bounce",
         size=(9.0, 5.8),
         rough=True,
@@ -320,6 +327,7 @@ def fixed_point(case: Case | None = None) -> Panel:
         draw,
         say,
         compute=_by_iteration,
+        remarks=_of_last,
         code=f"run.at({{iteration}}){_SAG_CODE}",
         size=(9.0, 6.4),
         heights=[1.3, 1.0, 1.1],
@@ -367,6 +375,7 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
         draw,
         say,
         compute=_by_iteration,
+        remarks=_of_last,
         code=f"run.at({{iteration}}){_SAG_CODE}",
         size=(11.0, 5.6),
         heights=[0.75, 1.2, 1.0],

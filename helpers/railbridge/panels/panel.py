@@ -22,9 +22,10 @@ from matplotlib.figure import Figure
 
 from .. import errors
 from ..cases.definition import Case
-from ..errors import InputError
+from ..errors import InputError, InputWarning, Remark, ResultWarning
 from ..plots.drawing import FIGURE_WIDTH, keep_limits, reuse_artists
 from ..plots.picture import Picture
+from ..results import Crossing
 from ..settings import default_time_step
 from .control import Control, change_at, for_case
 
@@ -65,6 +66,10 @@ class Panel:
     compute : callable
         ``compute(case, progress)`` returns the result of a case; pure, kept for the controls' last
         values. It calls `progress` now and then, which raises where the result is no longer wanted.
+    remarks : callable
+        ``remarks(case, result)`` returns what must be known before the picture is read; what is
+        warned of is shown with the exact picture. By default those on a crossing, or on the input
+        where the result is something else.
     code : str
         Last line of *Show this as code*, formatted with the values: the number that the summary
         gives.
@@ -93,6 +98,7 @@ class Panel:
         say: Callable[[Case, Any, Mapping[str, Any]], str],
         *,
         compute: Callable[[Case, Progress | None], Any] = Case.compute,
+        remarks: Callable[[Case, Any], Sequence[Remark]] | None = None,
         code: str = "",
         size: tuple[float, float] = (FIGURE_WIDTH, 4.6),
         heights: Sequence[float] | None = None,
@@ -105,6 +111,7 @@ class Panel:
         self.summary = ""
         self.case = self._base = case
         self._draw, self._say, self._compute = draw, say, compute
+        self._remarks = remarks or _usual_remarks
         self._code_line, self._rough = code, rough
         self._results: OrderedDict[tuple, tuple[Case, Any]] = OrderedDict()
         self._moves = 0
@@ -135,7 +142,7 @@ class Panel:
         # As a data URL: from a blob's URL, which the widget would make of plain bytes, a browser
         # shows it 15 ms later.
         self.image = widgets.Image(format="url", layout=widgets.Layout(width="100%"))
-        self.words, self.trouble = widgets.HTML(), widgets.HTML()
+        self.words, self.remarks, self.trouble = (widgets.HTML() for _ in range(3))
         tooltip = "All controls back to where they started"
         self.paper_button = _button("Paper case", tooltip)
         self.paper_button.on_click(lambda _: self._move(self.start, self._slider_moved))
@@ -148,6 +155,7 @@ class Panel:
         for widget, name in (
             (self.image, "picture"),
             (self.words, "summary"),
+            (self.remarks, "remarks"),
             (self.trouble, "error"),
             (self.widget, "panel"),
         ):
@@ -169,7 +177,9 @@ class Panel:
         main_layout = widgets.Layout(
             flex=f"6 1 {0.82 * width:.0f}px", min_width="0", max_width=f"{width:.0f}px"
         )
-        main = widgets.VBox([self.image, self.words, self.trouble], layout=main_layout)
+        main = widgets.VBox(
+            [self.image, self.words, self.remarks, self.trouble], layout=main_layout
+        )
         side.add_class("rb-side")
         main.add_class("rb-main")
         wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="4px 1em")
@@ -300,6 +310,8 @@ class Panel:
         def work() -> None:
             result = self._solve(values, rough, stop_if_stale)
             stop_if_stale()
+            if not rough:
+                self._remarks(*result)
             self._say(*result, values)  # works out what the picture needs, which results keep
 
         def done(task: asyncio.Future) -> None:
@@ -347,11 +359,13 @@ class Panel:
             keep_limits(self.figure, rough)
             self._draw(self._axes, case, result, values)
             summary = self._say(case, result, values)
+            remarks = [] if rough else self._remarks(case, result)
         except (ValueError, RuntimeError, ArithmeticError) as error:
             self._show_error(error)
         else:
             self.case, self.summary, self.error = case, summary, None
             self._show_case(rough)
+            self.remarks.value = _as_html(remarks)
         for name, label in self._asides.items():
             label.value = self.controls[name].aside(values[name])
 
@@ -399,6 +413,29 @@ _ALERT = (
     "line-height:1.35;background:#fdecea;color:#7a0c17;"
     "border-left:4px solid #b00020;padding:4px 10px"
 )
+
+
+_NOTE = _ALERT.replace("#fdecea;color:#7a0c17", "#fff4d6;color:#5c4300").replace(
+    "#b00020", "#b07d00"
+)
+REMARKS_SHOWN = 3
+
+
+def _usual_remarks(case: Case, result: Any) -> Sequence[Remark]:
+    """Return the remarks on a crossing, or on the input where the result is something else."""
+    return case.remarks(result) if isinstance(result, Crossing) else case.doubts
+
+
+def _as_html(remarks: Sequence[Remark]) -> str:
+    """Return what is warned of as a box of a line each, the first few; nothing if there is none."""
+    warned = (r for r in remarks if isinstance(r, (InputWarning, ResultWarning)))
+    lines = [escape(str(remark)) for remark in warned]
+    if not lines:
+        return ""
+    more = len(lines) - REMARKS_SHOWN
+    rest = [f"And {more} more; see the remarks of the summary."] if more > 0 else []
+    words = "<br>".join(lines[:REMARKS_SHOWN] + rest)
+    return f'<div role="note" style="{_NOTE}">{words}</div>'
 
 
 def _button(label: str, tooltip: str) -> widgets.Button:

@@ -22,7 +22,7 @@ from .drawing import (
     round_up,
     small_multiples,
 )
-from .style import GREY, style_of
+from .style import GREY, literal, style_of
 
 __all__ = ["damping", "deck_mode", "deck_modes", "influence_line"]
 
@@ -48,7 +48,7 @@ def deck_mode(deck: Deck, mode: int, ax: Axes | None = None) -> Axes:
         curve(ax, name, x, own if moves else np.full_like(x, np.nan), **line)
     _draw_bearings(ax, deck)
     frequency, ratio = deck.frequencies_hz[i], 100 * deck.damping_ratios[i]
-    title = f"mode {mode}: {deck.mode_names[i]}, {frequency:.4g} Hz, damping {ratio:.1f} %"
+    title = f"mode {mode}: {literal(deck.mode_names[i])}, {frequency:.4g} Hz, damping {ratio:.1f} %"
     label_axes(ax, PLACE_LABEL, "shape (-)", title)
     ax.set_ylim(-1.15, 1.15)
     return ax
@@ -66,7 +66,7 @@ def deck_modes(
         if ax.get_legend() is not None:
             ax.get_legend().remove()
         frequency, ratio = deck.frequencies_hz[mode - 1], 100 * deck.damping_ratios[mode - 1]
-        title = f"{mode}: {deck.mode_names[mode - 1]}, {frequency:.4g} Hz, {ratio:.1f} %"
+        title = f"{mode}: {literal(deck.mode_names[mode - 1])}, {frequency:.4g} Hz, {ratio:.1f} %"
         ax.set_title(title, loc="left", fontsize="medium")
         ax.label_outer()
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):

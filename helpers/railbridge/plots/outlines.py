@@ -19,7 +19,8 @@ from ..vehicles import FREEDOMS, Modes, Spring, Vehicle
 
 __all__ = [
     "VIEWS", "VIEW_NAMES", "WHEEL_RADIUS", "BodyBox", "CarOutline", "Heights", "Motion", "Path",
-    "TrainOutline", "VehicleOutline", "is_long", "mode_motion", "train_outline", "zigzag",
+    "TrainOutline", "VehicleOutline", "drawn_length", "is_long", "mode_motion", "train_outline",
+    "zigzag",
 ]  # fmt: skip
 
 # ---- a vehicle by itself
@@ -95,7 +96,7 @@ class VehicleOutline:
             long = on_top and highest > 1
             height = _TOP_BODY if long else _ONLY_BODY if on_top else _LOW_BODY
             bottom = WHEEL_RADIUS + _SPRING_LENGTH * level + _LOW_BODY * (level - 1)
-            half_x = max(reach[0] + 0.35, 0.48 * self.vehicle.length if long else 0.9)
+            half_x = max(reach[0] + 0.35, 0.48 * drawn_length(self.vehicle) if long else 0.9)
             half_y = max(reach[1] + 0.12, 1.45 if on_top else 0.9)
             centre = np.array([body.position[0], body.position[1], bottom + height / 2])
             boxes[body.name] = BodyBox(centre, np.array([half_x, half_y, height / 2]), on_top)
@@ -136,7 +137,13 @@ class VehicleOutline:
 
 def is_long(vehicle: Vehicle) -> bool:
     """Return whether a vehicle is drawn as a long one, wide on the page."""
-    return vehicle.length > 12
+    return drawn_length(vehicle) > 12
+
+
+def drawn_length(vehicle: Vehicle) -> float:
+    """Return the length of a vehicle, m; where it is not given, what covers wheels and springs."""
+    reach = max(abs(spring.at[0]) for spring in vehicle.springs)
+    return vehicle.length or 2.0 * reach + 2.0
 
 
 def mode_motion(
@@ -265,7 +272,7 @@ def train_outline(train: AnyTrain, first_axle: float = 0.0) -> TrainOutline:
 
 
 def _car_outline(car: Car, first_axle: float) -> CarOutline:
-    middle, half = first_axle - car.centre, _BODY_SHARE * car.vehicle.length
+    middle, half = first_axle - car.centre, _BODY_SHARE * drawn_length(car.vehicle)
     bogies: dict[str, list[float]] = {}
     for wheel in car.wheels:
         bogies.setdefault(wheel.body, []).append(middle + wheel.x)

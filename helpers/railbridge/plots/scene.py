@@ -11,7 +11,7 @@ from ..results import Crossing
 from ..trains import AxleTrain, Train
 from .drawing import PLACE_LABEL, axes_or_new, curve, label_axes, note, round_down
 from .outlines import Heights, TrainOutline, train_outline
-from .style import DECK_COLOUR, GREY, style_of
+from .style import DECK_COLOUR, GREY, literal, style_of
 
 __all__ = ["crossing_at", "train_on_deck"]
 
@@ -52,7 +52,7 @@ def train_on_deck(
     if not outline.cars:
         _draw_loads(ax, outline)
     place = {"data_x": True, "ha": "center", "va": "bottom"}
-    note(ax, "deck name", f"{deck.name}, {deck.length:g} m", deck.length / 2, 0.0, **place)
+    note(ax, "deck name", f"{literal(deck.name)}, {deck.length:g} m", deck.length / 2, 0.0, **place)
     label_axes(ax, PLACE_LABEL, legend=False)
     ax.set(xlim=(start, end), ylim=(-4.2, 5.0), yticks=[])
     ax.spines["left"].set_visible(False)
@@ -101,7 +101,7 @@ def crossing_at(run: Crossing, position: float, ax: Axes | None = None) -> Axes:
     curve(ax, "cars", *paths["cars"], color=_TRAIN, lw=1.6)
     text = f"displacement of the deck drawn {factor:g} times too large"
     note(ax, "exaggeration", text, 0.005, 0.02, va="bottom", color=_MOVED, size=9.5)
-    text = f"{deck.name}, {deck.length:g} m"
+    text = f"{literal(deck.name)}, {deck.length:g} m"
     note(ax, "deck name", text, 0.995, 0.02, ha="right", va="bottom", size=9.5)
     label_axes(ax, PLACE_LABEL, legend=False, fit=False)
     if (*ax.get_xlim(), *ax.get_ylim()) != (start, end, -3.6, 4.6):

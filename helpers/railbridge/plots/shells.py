@@ -13,7 +13,7 @@ from matplotlib.path import Path
 from .. import errors
 from ..boxes import Box, SectionProperties, Shell, ShellModes
 from .drawing import axes_or_new, curve, label_axes, numbers_up_to, small_multiples
-from .style import GREY, style_of
+from .style import GREY, literal, style_of
 
 __all__ = ["assurance", "box_section", "shell_mode", "shell_modes"]
 
@@ -40,7 +40,7 @@ def box_section(box: Box, section: SectionProperties | None = None, ax: Axes | N
     for name, y in box.tracks.items():
         rails, height = np.array([y - _GAUGE / 2, y + _GAUGE / 2]), np.full(2, box.depth + 0.06)
         curve(ax, f"rails {name}", rails, height, color="k", ls="", marker="s", ms=5)
-        text = f"{name} track\ny = {y:g} m"
+        text = f"{literal(name)} track\ny = {y:g} m"
         ax.text(y, box.depth + 0.18, text, va="bottom", ha="center", size=8.5)
     for side in sorted({side for pads in box.bearings for side in pads.sides}):
         y = side * box.bottom_spacing / 2
@@ -55,7 +55,7 @@ def box_section(box: Box, section: SectionProperties | None = None, ax: Axes | N
         curve(ax, "shear centre", [y], [z], label="shear centre", marker="x", **cross)
     top = box.depth + (0.75 if box.tracks else 0.2)
     _draw_dimensions(ax, box, top)
-    label_axes(ax, "y, to the left (m)", "height above the underside (m)", box.name)
+    label_axes(ax, "y, to the left (m)", "height above the underside (m)", literal(box.name))
     # The section seen along the track: left is left.
     edge = box.slab_width / 2
     ax.set(xlim=(edge + 1.0, -edge - 0.6), ylim=(-0.95, top + 0.45), aspect="equal")
@@ -141,7 +141,7 @@ def shell_mode(
     shades = {"array": size[order], "cmap": "Blues", "clim": (-0.15 * scale, scale)}
     ax.add_collection(PolyCollection(page[shell.quads][order], ec="#44505c", lw=0.25, **shades))
     ax.autoscale_view()
-    title = f"{mode}: {modes.names[i]}, {modes.frequencies_hz[i]:.2f} Hz"
+    title = f"{mode}: {literal(modes.names[i])}, {modes.frequencies_hz[i]:.2f} Hz"
     if modes.names[i].startswith("local"):
         sides = "alike" if modes.symmetric[i] else "opposite"
         title += f", {modes.parts[i]}, left and right {sides}"

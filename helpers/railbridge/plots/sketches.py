@@ -21,7 +21,7 @@ from .outlines import (
     mode_motion,
     zigzag,
 )
-from .style import GREY, PALE, style_of
+from .style import GREY, PALE, literal, style_of
 
 __all__ = ["modes_of_equal_frequency", "vehicle", "vehicle_mode", "what_moves"]
 
@@ -51,13 +51,13 @@ def vehicle(vehicle: Vehicle, axes: Sequence[Axes] | None = None) -> np.ndarray:
     _frame_views(axes, outline, below=2.7 if long else 0.6, room=0.9 if long else 0.4)
     for body in vehicle.bodies:
         (x, _, z), half = outline.boxes[body.name].centre, outline.boxes[body.name].half
-        text = f"{body.name}\n{body.mass / 1e3:.4g} t"
+        text = f"{literal(body.name)}\n{body.mass / 1e3:.4g} t"
         ax, y, size = (side, z, 9) if half[2] > 0.4 else (top, 0.0, 7.5)
         ax.text(x, y, text, ha="center", va="center", size=size, zorder=4)
     places, sides = outline.wheels("side"), outline.wheels("front")
     for a, b in zip(places[:-1], places[1:], strict=True):
         _dimension(side, a, b, -0.75, f"{b - a:.4g} m")
-    if long:
+    if long and vehicle.length:
         half = vehicle.length / 2
         _dimension(side, -half, half, -1.6, f"length {vehicle.length:.4g} m")
     if len(sides) > 1:
@@ -100,7 +100,7 @@ def vehicle_mode(
     _frame_views(axes, outline, below=0.3, room=0.9 if long else 0.5)
     title = f"mode {mode}: {modes.frequencies_hz[mode - 1]:.4g} Hz, {modes.names[mode - 1]}"
     words = fill(what_moves(vehicle, modes, mode), 78 if long else 36)
-    axes[0].set_title(f"{title}\n{words}", loc="left", fontsize="medium")
+    axes[0].set_title(literal(f"{title}\n{words}"), loc="left", fontsize="medium")
     return np.array(axes, dtype=object)
 
 

@@ -16,7 +16,7 @@ from ..errors import choice
 
 __all__ = [
     "DECK_COLOUR", "FREEDOM_NAMES", "GREY", "PALE", "QUANTITY_STYLES", "RUN_COLOURS", "SHADE",
-    "STYLE", "QuantityStyle", "mode_in_words", "other_shade", "style_of",
+    "STYLE", "QuantityStyle", "literal", "mode_in_words", "other_shade", "style_of",
 ]  # fmt: skip
 
 FREEDOM_NAMES = {"y": "sway", "z": "bounce", "roll": "roll", "pitch": "pitch", "yaw": "yaw"}
@@ -133,6 +133,11 @@ def other_shade(colour: str) -> str:
     """
     mixed = np.array(to_rgb(colour))
     return to_hex(mixed + 0.55 * (1.0 - mixed) if mixed.mean() < _DARK else 0.45 * mixed)
+
+
+def literal(name: str) -> str:
+    """Return a name as pictures show it letter by letter: a dollar sign begins no formula."""
+    return name.replace("$", r"\$")
 
 
 def mode_in_words(mode: str) -> str:

@@ -26,7 +26,7 @@ from .drawing import (
     round_up,
     shade,
 )
-from .style import RUN_COLOURS, mode_in_words, other_shade, style_of
+from .style import RUN_COLOURS, literal, mode_in_words, other_shade, style_of
 
 __all__ = ["frequencies", "irregularity", "notch", "slope", "wheel_paths", "wheels_on_track"]
 
@@ -215,7 +215,7 @@ def _named_frequencies(source: Vehicle | Deck) -> tuple[np.ndarray, tuple[str, .
     Those of a vehicle in words, without front and rear, which mix freely.
     """
     if isinstance(source, Deck):
-        return source.frequencies_hz, source.mode_names
+        return source.frequencies_hz, tuple(map(literal, source.mode_names))
     modes = source.modes()
     names = (" ".join(name.split()[-2:]) for name in modes.names)
-    return modes.frequencies_hz, tuple(map(mode_in_words, names))
+    return modes.frequencies_hz, tuple(literal(mode_in_words(name)) for name in names)

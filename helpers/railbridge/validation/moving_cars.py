@@ -12,7 +12,7 @@ __all__ = ["NEWMARK", "car_rows", "sprung_mass_rows", "standing_car_rows"]
 
 NEWMARK = {
     20.0: (-5.198523e-3, -3.337180e6, -156.9624e3),
-    90.0: (-5.157361e-3, -3.539419e6, -161.1175e3),
+    90.0: (-5.157361e-3, -3.538012e6, -161.1175e3),
 }
 """Speed (m/s): largest mid-span displacement (m), moment (N m) and first axle's force (N).
 

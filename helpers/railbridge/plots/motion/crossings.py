@@ -60,7 +60,7 @@ def animate_crossing(
     frames = errors.integer("frames", frames, least=FEWEST, most=MOST)
     if x is None:
         x = deck.length / 2
-    x = errors.number("x", x, least=0.0, most=deck.length, unit="m")
+    x = errors.place("x", x, (0.0, deck.length))
     if exaggeration is not None:
         remedy = "1 draws it true to scale"
         exaggeration = errors.number("exaggeration", exaggeration, above=0.0, remedy=remedy)
