@@ -39,18 +39,19 @@ STEPS = 2
 """Of the product for one of the simulator, whose order is higher."""
 ALLOWED = 1.5
 LARGEST = {
-    # with rigid and with elastic bearings: three times the worst of 61 seeds
-    "displacement_y": (0.15, 0.05),
+    # with rigid and with elastic bearings, three times the worst of 74 seeds; none for elastic ones
+    # under modal damping, where what an entering axle sends out goes on ringing
+    "displacement_y": (0.15, 0.035),
     "displacement_z": (1.5e-4, 2e-3),
     "rotation_x": (5e-3, 0.03),
-    "moment_vertical": (2e-3, 0.04),
-    "moment_lateral": (0.3, 0.3),
-    "torsion": (0.03, 0.25),
+    "moment_vertical": (2e-3, 0.013),
+    "moment_lateral": (0.3, 0.06),
+    "torsion": (0.03, 0.04),
     "reaction force_y": (0.5, 0.2),
-    "reaction force_z": (0.01, 0.13),
-    "reaction moment_x": (0.02, 0.06),
+    "reaction force_z": (0.01, 0.045),
+    "reaction moment_x": (0.02, 0.03),
     "wheel force_y": (0.2, 0.13),
-    "wheel force_z": (0.018, 0.066),
+    "wheel force_z": (0.018, 0.05),
 }
 SIDEWAYS = "displacement_y", "moment_lateral", "reaction force_y", "wheel force_y"
 """Where no waves push sideways these are next to nothing, and a share of that means little."""
@@ -381,13 +382,14 @@ def test_iterated_and_direct_are_one_or_the_iteration_says_that_it_did_not_conve
 
 def test_the_simulator_finds_the_same(compared, worst):
     elastic = any(b["springs"] for b in compared.case["deck"]["bearings"])
+    rings = elastic and "ratio" in compared.case["deck"]
     pushed = any(direction == "lateral" for direction, _ in compared.case["waves"])
     too_far = []
     for name, (distance, ours, theirs) in compared.distances.items():
         if elastic and name == "acceleration_z":
             continue
         allowed = ALLOWED * (ours + theirs) + 1e-9
-        if pushed or name not in SIDEWAYS:
+        if not rings and (pushed or name not in SIDEWAYS):
             allowed = min(allowed, LARGEST.get(name, (1.0, 1.0))[elastic])
         told = f"{name}: {distance:.1e} apart, refining moved {ours:.1e} and {theirs:.1e}"
         worst.append((name, elastic, distance, f"seed {compared.seed}, {told}"))
