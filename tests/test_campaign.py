@@ -7,10 +7,14 @@ and prints what was worst.
 
 How near is near enough is not chosen but measured. Both programs run twice, the second time with
 half the step, the product with twice the modes, the simulator with elements of half the size. Their
-second results may differ by no more than `ALLOWED` times what refining moved both of them together.
-Once would do where errors fall at least with the step; the jumps of torsion and shear at an axle,
-and accelerations, fall more slowly with modes. `LARGEST` says how far apart they may be at all, so
-that no case passes by being coarse.
+second results may differ by no more than `ALLOWED` times what refining moved both of them together:
+where errors fall with the step or faster, once that is what can be left. `LARGEST` says how far
+apart they may be at all, so that no case passes by being coarse.
+
+What limits them: with rigid bearings the simulator's elements and steps, and displacements agree to
+some millionths; with elastic ones the product's step, since an axle that enters or leaves lets the
+deck jump, which the samples place up to a step wrong, and the waves that this sends out, which
+under modal damping nothing stops at any frequency. Accelerations there have no limit to agree on.
 """
 
 import os
@@ -25,12 +29,32 @@ from simulator import Simulator
 
 import railbridge as rb
 
-COUNT = int(os.environ.get("RAILBRIDGE_CAMPAIGN", "5"))
+FEW = 7, 17, 24, 30, 42
+"""Seeds that always run: short crossings that hold every kind of bearing, deck and damping."""
+CAMPAIGN = int(os.environ.get("RAILBRIDGE_CAMPAIGN", "0"))
+SEEDS = range(CAMPAIGN) if CAMPAIGN else FEW
 MODES, ELEMENTS, SIZE = 60, 80, 3.0
 """Of the first run of both; the second has twice the modes and elements, and half the size (m)."""
 STEPS = 2
 """Of the product for one of the simulator, whose order is higher."""
-ALLOWED = 3.0
+ALLOWED = 1.5
+LARGEST = {
+    # with rigid and with elastic bearings, three times the worst of 74 seeds; none for elastic ones
+    # under modal damping, where what an entering axle sends out goes on ringing
+    "displacement_y": (0.15, 0.035),
+    "displacement_z": (1.5e-4, 2e-3),
+    "rotation_x": (5e-3, 0.03),
+    "moment_vertical": (2e-3, 0.013),
+    "moment_lateral": (0.3, 0.06),
+    "torsion": (0.03, 0.04),
+    "reaction force_y": (0.5, 0.2),
+    "reaction force_z": (0.01, 0.045),
+    "reaction moment_x": (0.02, 0.03),
+    "wheel force_y": (0.2, 0.13),
+    "wheel force_z": (0.018, 0.05),
+}
+SIDEWAYS = "displacement_y", "moment_lateral", "reaction force_y", "wheel force_y"
+"""Where no waves push sideways these are next to nothing, and a share of that means little."""
 
 
 def drawn(seed):
@@ -305,32 +329,70 @@ class Compared:
         return {n: tuple(d.get(n, 0.0) for d in both) for n in both[0]}
 
 
-@pytest.fixture(scope="module", params=range(COUNT))
+@pytest.fixture(scope="module")
+def worst():
+    """Collects how far apart quantities were, and prints the worst of a large campaign."""
+    found = []
+    yield found
+    largest = {}
+    for name, elastic, distance, told in found:
+        key = name, "elastic" if elastic else "rigid"
+        largest[key] = max(largest.get(key, (0.0, "")), (distance, told))
+    if CAMPAIGN:
+        print(*(f"\n{kind} bearings, {told}" for (_, kind), (_, told) in sorted(largest.items())))
+
+
+@pytest.fixture(scope="module", params=SEEDS)
 def compared(request):
     return Compared(request.param)
 
 
-def test_iterated_and_direct_are_one_or_the_iteration_says_that_it_did_not_converge(compared):
-    direct = compared.direct
+def lighter(case, share):
+    """The same with a share of the deck's mass and stiffness: same frequencies, stronger
+    coupling."""
+    scaled = ("mass", "polar", "vertical", "lateral", "torsion", "axial")
+    deck = {n: v * share if n in scaled else v for n, v in case["deck"].items()}
+    return case | {"deck": deck}
+
+
+def iterated(case, direct):
+    """Largest change from the direct solution, of wheel forces and of modal coordinates, as shares;
+    None where the iteration says that it did not converge."""
     try:
-        run = product(compared.case)
+        run = product(case)
     except rb.NotConvergedError as error:
         assert error.run.converged is False
-        assert error.run.changes[-1] > error.run.settings.tolerance
-        return
+        assert not max(error.run.changes[-2:]) < error.run.settings.tolerance
+        return None
     assert run.converged
-    varying = direct.wheel_forces - direct.wheel_forces[..., :1]
-    size = np.std(varying, axis=-1).max(axis=0)
-    difference = np.std(run.wheel_forces - direct.wheel_forces, axis=-1).max(axis=0)
-    assert np.all(difference < 1e-7 * size)
-    for one, other in zip(run.state.q, direct.state.q, strict=True):
-        assert np.abs(one - other).max() < 1e-7 * np.abs(direct.state.q).max()
+    varying = np.std(direct.wheel_forces, axis=-1).max(axis=0)
+    forces = np.std(run.wheel_forces - direct.wheel_forces, axis=-1).max(axis=0) / varying
+    motion = np.abs(run.state.q - direct.state.q).max() / np.abs(direct.state.q).max()
+    return max(forces.max(), motion)
 
 
-def test_the_simulator_finds_the_same(compared):
-    too_far = {
-        name: (distance, ours, theirs)
-        for name, (distance, ours, theirs) in compared.distances.items()
-        if not distance <= ALLOWED * (ours + theirs) + 1e-9
-    }
-    assert not too_far, compared.case
+def test_iterated_and_direct_are_one_or_the_iteration_says_that_it_did_not_converge(compared):
+    """On the deck as drawn, and on a light one, where nearly half do not converge."""
+    found = iterated(compared.case, compared.direct)
+    assert found is None or found < 1e-7
+    case = lighter(compared.case, 0.15)
+    found = iterated(case, product(case, interaction="direct"))
+    assert found is None or found < 1e-7
+
+
+def test_the_simulator_finds_the_same(compared, worst):
+    elastic = any(b["springs"] for b in compared.case["deck"]["bearings"])
+    rings = elastic and "ratio" in compared.case["deck"]
+    pushed = any(direction == "lateral" for direction, _ in compared.case["waves"])
+    too_far = []
+    for name, (distance, ours, theirs) in compared.distances.items():
+        if elastic and name == "acceleration_z":
+            continue
+        allowed = ALLOWED * (ours + theirs) + 1e-9
+        if not rings and (pushed or name not in SIDEWAYS):
+            allowed = min(allowed, LARGEST.get(name, (1.0, 1.0))[elastic])
+        told = f"{name}: {distance:.1e} apart, refining moved {ours:.1e} and {theirs:.1e}"
+        worst.append((name, elastic, distance, f"seed {compared.seed}, {told}"))
+        if not distance <= allowed:
+            too_far.append(told)
+    assert not too_far, (compared.seed, compared.case)
