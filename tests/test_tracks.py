@@ -116,6 +116,12 @@ def test_a_table_keeps_its_numbers():
             values[0] = 5.0
 
 
+def test_a_notch_is_no_longer_than_its_wheel_is_round():
+    with pytest.raises(rb.InputError, match=r"^length = 3.0: .*at most 2.7 m"):
+        rb.Notch(((1, 1),), 2.7, 1.0, 1e-3, 3.0)
+    assert rb.Notch(((1, 1),), 2.7, 1.0, 1e-3, 2.7).length == 2.7
+
+
 def test_a_wavelength_that_vanishes_is_refused():
     with pytest.raises(rb.InputError, match=r"^wavelength = 2.*e-60: .*above 0 m"):
         rb.Harmonic(1e-3, length=1e-30, half_waves=1e30)

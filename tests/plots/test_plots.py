@@ -385,11 +385,11 @@ def test_a_force_at_rest_and_the_time_on_the_deck_are_marked(run):
     wheel = run.train.car(2).wheels[2]
     ax = plots.wheel_force(run, 2, 3)
     assert np.allclose(labelled(ax, "at rest").get_ydata(), -1e-3 * wheel.static_load)
-    for ax, axles in (
+    for shaded, axles in (
         (ax, run.train.car(2).axles),
         (plots.displacement(run, 18.0), run.train.placed_axles),
     ):
-        box = next(patch for patch in ax.patches if patch.get_gid() == "on deck")
+        box = next(patch for patch in shaded.patches if patch.get_gid() == "on deck")
         start, stop = axles[0].delay / 20.0, (axles[-1].delay + 36.0) / 20.0
         assert [box.get_x(), box.get_x() + box.get_width()] == pytest.approx([start, stop])
 
