@@ -122,6 +122,12 @@ def test_a_notch_is_no_longer_than_its_wheel_is_round():
     assert rb.Notch(((1, 1),), 2.7, 1.0, 1e-3, 2.7).length == 2.7
 
 
+@pytest.mark.parametrize("wheels", [5, (), None, [(1,)], [1, 1], "11", {(1, 1): 2}])
+def test_a_notch_s_wheels_are_pairs(wheels):
+    with pytest.raises(rb.InputError, match="wheels"):
+        rb.Notch(wheels, 2.7, 1.0, 1e-3, 0.05)
+
+
 def test_a_wavelength_that_vanishes_is_refused():
     with pytest.raises(rb.InputError, match=r"^wavelength = 2.*e-60: .*above 0 m"):
         rb.Harmonic(1e-3, length=1e-30, half_waves=1e30)
