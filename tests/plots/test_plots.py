@@ -413,6 +413,26 @@ def test_a_mode_is_drawn_in_its_directions_and_called_by_its_numbers(run):
 
 
 @pytest.mark.parametrize(
+    ("width", "lever", "word"), [(9.6, 4.8, "twist, at the edge"), (None, 1.0, "twist")]
+)
+def test_twist_is_drawn_as_the_rise_of_the_edge(width, lever, word):
+    """On bearings held sideways below the axis every lateral mode twists, too."""
+    pads = [
+        rb.Bearing(x, fixed, y, -3.0)
+        for x in (0.0, 36.0)
+        for fixed, y in (("y z", 2.0), ("z", -2.0))
+    ]
+    beam = rb.Beam("b", (36.0,), 12e3, 9e10, 9e11, 8e10, polar_inertia=7e4, bearings=pads)
+    deck = beam.deck(8, 0.02, width=width)
+    v, _, twist = np.abs(deck.shapes(np.linspace(0.0, 36.0, 301))).max(axis=0).T
+    mode = int(np.argmax(np.minimum(v, lever * twist)))
+    ax = plots.deck_mode(deck, mode + 1)
+    drawn = {name: np.abs(labelled(ax, name).get_ydata()).max() for name in ("lateral", word)}
+    assert drawn[word] / drawn["lateral"] == pytest.approx(lever * twist[mode] / v[mode])
+    assert max(drawn.values()) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
     ("quantity", "load", "factor", "unit"),
     [
         ("displacement_z", 1, 1e9, "mm per MN"),
