@@ -108,6 +108,31 @@ def test_a_table_is_linear_between_its_points_and_level_beyond(at, seed):
     assert table.shortest == pytest.approx(10 * np.diff(x).min())
 
 
+def test_a_table_keeps_its_numbers():
+    """A shelf hands the same table to several cases."""
+    table = rb.Table([0.0, 1.0], [0.0, 2e-3])
+    for values in (table.x, table.r):
+        with pytest.raises(ValueError, match="read-only"):
+            values[0] = 5.0
+
+
+def test_a_notch_is_no_longer_than_its_wheel_is_round():
+    with pytest.raises(rb.InputError, match=r"^length = 3.0: .*at most 2.7 m"):
+        rb.Notch(((1, 1),), 2.7, 1.0, 1e-3, 3.0)
+    assert rb.Notch(((1, 1),), 2.7, 1.0, 1e-3, 2.7).length == 2.7
+
+
+@pytest.mark.parametrize("wheels", [5, (), None, [(1,)], [1, 1], "11", {(1, 1): 2}])
+def test_a_notch_s_wheels_are_pairs(wheels):
+    with pytest.raises(rb.InputError, match="wheels"):
+        rb.Notch(wheels, 2.7, 1.0, 1e-3, 0.05)
+
+
+def test_a_wavelength_that_vanishes_is_refused():
+    with pytest.raises(rb.InputError, match=r"^wavelength = 2.*e-60: .*above 0 m"):
+        rb.Harmonic(1e-3, length=1e-30, half_waves=1e30)
+
+
 def test_sums_rails_and_levels():
     a, b = rb.Harmonic(5e-3, wavelength=14.4), rb.Harmonic(1e-3, wavelength=3.0, phase=0.4)
     x = np.linspace(-3, 40, 77)

@@ -95,6 +95,23 @@ def test_the_paper_case_is_small_too():
     assert len(animate_crossing(rb.paper.run("paper", "condensed", iterations=1)).html) < FILE_BYTES
 
 
+def test_the_words_below_a_crossing_are_its_numbers(run, crossing):
+    """Who cannot see the picture reads them; speed, load and sag are those of the run."""
+    sag, moment = run.displacement(18.0).extreme("displacement_z")
+    said = words(crossing)
+    assert "viaduct36, 36 m, at 20 m/s (72 km/h)" in said
+    assert f"At x = 18 m the largest displacement is {1e3 * sag:.2f} mm at {moment:.2f} s." in said
+    axle = max(axle.static_load for axle in run.train.placed_axles)
+    assert f"{axle / 1e3:.4g} kN at rest" in said
+    assert f"{axle / 1e3:.4g} kN, an axle at rest" in texts(crossing)
+    drawn = data(crossing)
+    when = np.array(drawn["time"])
+    known = 1e3 * run.displacement(18.0)["displacement_z"]
+    assert np.interp(when, run.time, known) == pytest.approx(drawn["value"], abs=0.02)
+    elsewhere = animate_crossing(run, x=9.0, frames=10)
+    assert "At x = 9 m the largest displacement is" in words(elsewhere)
+
+
 def test_the_same_input_gives_the_same_page(car):
     assert animate_vehicle_mode(car, 1).html == animate_vehicle_mode(rb.vehicle("xia2000"), 1).html
 

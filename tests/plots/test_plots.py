@@ -344,6 +344,63 @@ def test_spectra_convergence_and_damping_are_drawn_as_computed(run):
         assert np.allclose(shown, 100 * (a / (4 * np.pi * f) + b * np.pi * f))
 
 
+TRACK = rb.Track(
+    vertical=rb.Rails(rb.Harmonic(5e-3, 14.4), rb.Harmonic(3e-3, 9.0)),
+    lateral=rb.Harmonic(2e-3, 7.0),
+)
+RAILS = {
+    "vertical, left rail": ("vertical", "left"),
+    "vertical, right rail": ("vertical", "right"),
+    "lateral": ("lateral", "left"),
+}
+
+
+def test_rails_and_their_slopes_stand_under_their_names():
+    for figure, part, label in (
+        (plots.irregularity, "value", "irregularity r (mm)"),
+        (plots.slope, "slope", "slope dr/dx (mm/m)"),
+    ):
+        ax = figure(TRACK, -60.0, 40.0, lead_in=50.0)
+        assert ax.get_ylabel() == label
+        for name, (direction, side) in RAILS.items():
+            x, shown = labelled(ax, name).get_data()
+            faded = rb.tracks.FadeIn(TRACK.rail(direction, side), 50.0)
+            assert np.allclose(shown, 1e3 * getattr(faded, part)(x)), name
+            assert not shown[x < -50.0].any() and shown.any()
+
+
+def test_wheels_stand_behind_the_first_axle_and_meet_the_wave_later(run):
+    train = run.train
+    x, r = labelled(plots.wheels_on_track(train, TRACK, 18.0), "wheels of the train").get_data()
+    left = [wheel.delay for wheel in train.wheels if wheel.side == "left"]
+    assert np.allclose(x, 18.0 - np.array(left))
+    assert np.allclose(r, 1e3 * TRACK.rail("vertical", "left").value(x))
+    ax = plots.wheel_paths(train, TRACK, 20.0, [(1, 1), (1, 6)])
+    for number, side in ((1, "left"), (6, "right")):
+        t, r = labelled(ax, f"car 1, wheel {number}").get_data()
+        met = 20.0 * t - train.wheels[number - 1].delay
+        assert np.allclose(r, 1e3 * TRACK.rail("vertical", side).value(met))
+
+
+def test_a_force_at_rest_and_the_time_on_the_deck_are_marked(run):
+    wheel = run.train.car(2).wheels[2]
+    ax = plots.wheel_force(run, 2, 3)
+    assert np.allclose(labelled(ax, "at rest").get_ydata(), -1e-3 * wheel.static_load)
+    for shaded, axles in (
+        (ax, run.train.car(2).axles),
+        (plots.displacement(run, 18.0), run.train.placed_axles),
+    ):
+        box = next(patch for patch in shaded.patches if patch.get_gid() == "on deck")
+        start, stop = axles[0].delay / 20.0, (axles[-1].delay + 36.0) / 20.0
+        assert [box.get_x(), box.get_x() + box.get_width()] == pytest.approx([start, stop])
+
+
+def test_bodies_are_named_with_their_mass():
+    axes = np.ravel(np.asarray(plots.vehicle(rb.vehicle("xia2000")), dtype=object))
+    shown = {text.get_text() for ax in axes for text in ax.texts}
+    assert "car\n50.99 t" in shown, shown
+
+
 def test_a_mode_is_drawn_in_its_directions_and_called_by_its_numbers(run):
     deck = run.deck
     for mode, name in enumerate(deck.mode_names[:6], start=1):
@@ -354,6 +411,26 @@ def test_a_mode_is_drawn_in_its_directions_and_called_by_its_numbers(run):
         way = {"l": "lateral", "v": "vertical", "t": "twist, at the edge"}[name[0]]
         shown = [line.get_label() for line in ax.lines if line.get_label()[0] != "_"]
         assert shown == [way], name
+
+
+@pytest.mark.parametrize(
+    ("width", "lever", "word"), [(9.6, 4.8, "twist, at the edge"), (None, 1.0, "twist")]
+)
+def test_twist_is_drawn_as_the_rise_of_the_edge(width, lever, word):
+    """On bearings held sideways below the axis every lateral mode twists, too."""
+    pads = [
+        rb.Bearing(x, fixed, y, -3.0)
+        for x in (0.0, 36.0)
+        for fixed, y in (("y z", 2.0), ("z", -2.0))
+    ]
+    beam = rb.Beam("b", (36.0,), 12e3, 9e10, 9e11, 8e10, polar_inertia=7e4, bearings=pads)
+    deck = beam.deck(8, 0.02, width=width)
+    v, _, twist = np.abs(deck.shapes(np.linspace(0.0, 36.0, 301))).max(axis=0).T
+    mode = int(np.argmax(np.minimum(v, lever * twist)))
+    ax = plots.deck_mode(deck, mode + 1)
+    drawn = {name: np.abs(labelled(ax, name).get_ydata()).max() for name in ("lateral", word)}
+    assert drawn[word] / drawn["lateral"] == pytest.approx(lever * twist[mode] / v[mode])
+    assert max(drawn.values()) == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(
