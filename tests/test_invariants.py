@@ -262,7 +262,6 @@ def add_load(total, place, mesh, x, force, couple):
         total[place[mesh.freedoms[name][e]]] += value * (powers @ mesh.shapes[name][e])
 
 
-@pytest.mark.xfail(strict=True, reason="reactions lack the internal viscous part")
 @few(3)
 @given(
     lengths=st.sampled_from([(30.0,), (20.0, 25.0)]),

@@ -18,7 +18,7 @@ from railbridge.settings import bytes_needed
 
 SIZE = float(os.environ.get("RAILBRIDGE_FUZZ", "1"))
 SEED = int(os.environ.get("RAILBRIDGE_FUZZ_SEED", "20261128"))
-LARGEST = 1.5e8
+LARGEST = 2e8
 """Bytes: runs that need more are checked only."""
 
 CASES = {

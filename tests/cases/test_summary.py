@@ -332,8 +332,9 @@ def test_the_papers_case_in_numbers():
 def test_the_dynamic_factor_is_that_of_the_side_with_the_larger_static_value(
     statics, extremes, side, factor
 ):
-    run = SimpleNamespace(time=np.arange(4.0), static_extremes=lambda line: statics)
-    history = {"shear_vertical": np.array([0.0, extremes[0], extremes[1], 0.0])}
+    run = SimpleNamespace(static_extremes=lambda line: statics)
+    values = {"shear_vertical": np.array([0.0, extremes[0], extremes[1], 0.0])}
+    history = {"shear_vertical": rb.History(np.arange(4.0), values, {"shear_vertical": "N"})}
     entry = summary._entries(run, history, {"shear_vertical": object()})["shear_vertical"]
     assert entry["static"] == pytest.approx(side, rel=1e-6)
     assert entry["dynamic_factor"] == pytest.approx(factor, rel=1e-6)

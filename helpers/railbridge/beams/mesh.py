@@ -321,9 +321,12 @@ class Mesh:
     def _ill_scaled(self) -> InputError:
         allowed = "is so far from the deck's mass, other stiffnesses and springs that round-off "
         allowed += "spoils its modes"
-        given = self.beam.bending_stiffness_vertical
+        field = "bending_stiffness_vertical"
         remedy = "Check the units of all of them: N m2, N, N/m, kg/m"
-        return InputError("bending_stiffness_vertical", given, allowed, remedy)
+        for remark in self.beam.remarks[:1]:  # what is doubted anyway is the likely reason
+            field, question = remark.field, remark.text.rpartition(": ")[2]
+            remedy = question[:1].upper() + question[1:]
+        return InputError(field, getattr(self.beam, field, None), allowed, remedy)
 
     def _modes_of(
         self,

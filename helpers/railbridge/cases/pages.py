@@ -112,7 +112,7 @@ _EXAMPLES: dict[str, tuple[type[Table], dict[str, str]]] = {
             "# torsional_stiffness": "3.0e10",
             "# polar_inertia": "50e3",
             "damping": "{ modal = 0.01 }",
-            "modes": "8",
+            "modes": "4",
             "# tracks": "{ left = 2.0, right = -2.0 }",
         },
     ),
