@@ -1,6 +1,7 @@
 """Every figure is drawn, says its units, changes no settings; no legend hides anything."""
 
 import inspect
+import re
 from functools import cache
 
 import matplotlib as mpl
@@ -11,6 +12,7 @@ import pytest
 import railbridge as rb
 from railbridge import plots
 from railbridge.plots.drawing import FIGURE_WIDTH, reuse_artists
+from railbridge.plots.scene import crossing_at
 from railbridge.plots.style import QUANTITY_STYLES, RUN_COLOURS, other_shade
 
 
@@ -341,6 +343,23 @@ def test_spectra_convergence_and_damping_are_drawn_as_computed(run):
     ):
         f, shown = labelled(ax, label).get_data()
         assert np.allclose(shown, 100 * (a / (4 * np.pi * f) + b * np.pi * f))
+
+
+def test_the_train_rides_on_the_deck_as_it_is_drawn(run):
+    """On the rail before and behind, on the bent deck between, at the places of its wheels."""
+    ax = crossing_at(run, 60.0, plt.figure().add_subplot())
+    drawn = {line.get_gid(): line.get_data() for line in ax.lines}
+    x, z = drawn["wheels"]
+    assert np.allclose(np.sort(x), np.sort([60.0 - a.delay for a in run.train.placed_axles]))
+    off = (x < 0.0) | (x > 36.0)
+    assert off.any() and not off.all()
+    assert np.allclose(z[off], 0.35)
+    along, deck = drawn["deck"]
+    assert np.allclose(z[~off], np.interp(x[~off], along, deck + 0.45) + 0.35)
+    factor = float(re.search(r"drawn (\S+) times", " ".join(t.get_text() for t in ax.texts))[1])
+    sample = round(60.0 / 20.0 / run.settings.time_step)
+    known = [run.displacement(place)["displacement_z"][sample] for place in along]
+    assert np.allclose(deck + 0.45, factor * np.array(known), atol=1e-9)
 
 
 TRACK = rb.Track(
