@@ -203,6 +203,10 @@ def test_a_body_names_the_field_that_cannot_be(field, value):
     assert error.value.field.startswith(field)
 
 
+def test_the_car_body_s_motion_is_taken_above_its_springs_and_in_its_middle():
+    assert CAR.body_places == pytest.approx({"front": 7.8, "middle": 0.0, "rear": -7.8})
+
+
 def test_springs_in_series_by_hand():
     ks, kt, m = 4 * 1060e3, 8 * 2976e3, 50990.0
     assert np.sqrt(ks * kt / (ks + kt) / m) / 2 / np.pi == pytest.approx(1.337, abs=5e-4)

@@ -137,6 +137,13 @@ def test_pads_lower_and_softer_are_bearings_lower_and_softer(plain):
     assert [dict(b.stiffness) for b in apart if b.x == 0.0] == [{"x": 3e8}] * 2
 
 
+def test_the_centroid_stands_where_the_section_has_it(plain):
+    """The beam's axis runs through the shear centre; heights count from the underside."""
+    height = plain.beam().centroid_height
+    assert abs(height) > 0.05
+    assert height + plain.section.shear_centre[1] == pytest.approx(plain.section.centroid[1])
+
+
 def test_masses_of_track_and_edges_turn_with_the_section(plain):
     """Track over the width between the webs, edges at the ends of the slab, both on its middle
     plane."""
