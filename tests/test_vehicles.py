@@ -177,6 +177,50 @@ def test_a_planar_car_weighs_what_the_car_does_wheelsets_included():
     assert plane.length == CAR.length and plane.name == f"{CAR.name} planar"
 
 
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("at", (0.0, 0.0)),
+        ("at", (0.0, float("nan"), 0.0)),
+        ("stiffness", (-1.0, 1e6)),
+        ("stiffness", (1e6, 1e6, 1e6)),
+        ("stiffness", 1e6),
+        ("damping", (0.0, -1.0)),
+        ("damping", (0.0, "much")),
+    ],
+)
+def test_a_spring_names_the_field_that_cannot_be(field, value):
+    good = {"at": (0.0, 0.0, 0.0), "stiffness": (0.0, 1e6), "damping": (0.0, 1e3)}
+    rb.Spring("mass", "rail", **good)
+    with pytest.raises(rb.InputError) as error:
+        rb.Spring("mass", "rail", **{**good, field: value})
+    assert error.value.field.startswith(field)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("mass", 0.0),
+        ("mass", -5.0),
+        ("mass", "heavy"),
+        ("inertia", (1e4, -1.0, 1e4)),
+        ("inertia", (1e4, 1e4)),
+        ("position", (0.0, 0.0)),
+        ("position", (0.0, float("inf"), 0.0)),
+    ],
+)
+def test_a_body_names_the_field_that_cannot_be(field, value):
+    good = {"mass": 1e3, "inertia": (1e4, 1e4, 1e4), "position": (0.0, 0.0, 1.0)}
+    rb.Body("mass", **good)
+    with pytest.raises(rb.InputError) as error:
+        rb.Body("mass", **{**good, field: value})
+    assert error.value.field.startswith(field)
+
+
+def test_the_car_body_s_motion_is_taken_above_its_springs_and_in_its_middle():
+    assert CAR.body_places == pytest.approx({"front": 7.8, "middle": 0.0, "rear": -7.8})
+
+
 def test_springs_in_series_by_hand():
     ks, kt, m = 4 * 1060e3, 8 * 2976e3, 50990.0
     assert np.sqrt(ks * kt / (ks + kt) / m) / 2 / np.pi == pytest.approx(1.337, abs=5e-4)

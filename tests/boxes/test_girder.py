@@ -118,6 +118,49 @@ def test_bearings_stand_where_the_pads_are(plain):
     assert any(n.startswith("axial-bending") for n in names[:8])
 
 
+def test_pads_lower_and_softer_are_bearings_lower_and_softer(plain):
+    """Lengthwise the two springs of a line become one of both in the middle."""
+    given = (
+        Pads(0.0, ("y", "z"), stiffness={"x": 3e8}, drop=0.3),
+        Pads(36.0, ("y", "z"), drop=0.2),
+    )
+    soft = box(bearings=given)
+    centre = soft.section.shear_centre[1]
+    found = {(b.x, b.y): b for b in soft.beam().bearings}
+    assert {(x, round(b.z + centre, 9)) for (x, _), b in found.items()} == {
+        (0.0, -0.3),
+        (36.0, -0.2),
+    }
+    assert dict(found[0.0, 0.0].stiffness) == {"x": 6e8}
+    assert not any("x" in b.restrained for place, b in found.items() if place != (0.0, 0.0))
+    apart = soft.beam(clamped_in_plan=True).bearings
+    assert [dict(b.stiffness) for b in apart if b.x == 0.0] == [{"x": 3e8}] * 2
+
+
+def test_the_centroid_stands_where_the_section_has_it(plain):
+    """The beam's axis runs through the shear centre; heights count from the underside."""
+    height = plain.beam().centroid_height
+    assert abs(height) > 0.05
+    assert height + plain.section.shear_centre[1] == pytest.approx(plain.section.centroid[1])
+
+
+def test_masses_of_track_and_edges_turn_with_the_section(plain):
+    """Track over the width between the webs, edges at the ends of the slab, both on its middle
+    plane."""
+    track, edge = 4000.0, 1500.0
+    bare, loaded = box().beam(), box(track_mass=track, edge_mass=edge).beam()
+    lever = 2.0 - 0.25 / 2 - plain.section.centroid[1]
+    about_y = (track + edge) * lever**2
+    about_z = track * 5.0**2 / 12 + edge * 4.8**2
+    assert loaded.mass - bare.mass == pytest.approx(track + edge)
+    for name, more in (
+        ("rotary_inertia_vertical", about_y),
+        ("rotary_inertia_lateral", about_z),
+        ("polar_inertia", about_y + about_z),
+    ):
+        assert getattr(loaded, name) - getattr(bare, name) == pytest.approx(more), name
+
+
 def test_rails_stand_on_the_slab_whatever_the_model_s_axis(plain):
     """Both heights lead to the same place, 2 m above the bottom's underside."""
     beam = plain.beam_deck(2)

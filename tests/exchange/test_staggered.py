@@ -158,6 +158,29 @@ def test_the_equivalent_irregularity_is_track_plus_deck(ours):
         assert met["deck_y"][k] == pytest.approx(deck["displacement_y"][k], rel=1e-2, abs=1e-9)
 
 
+def test_a_car_that_is_excited_as_one_meets_the_wave_of_its_middle():
+    """Every wheel the same, as in the paper: no delay within the car."""
+    options = {**OPTIONS, "excitation": "car"}
+    step = staggered.begin(TRAIN, TRACK, AXIS, **options)
+    met = [staggered.equivalent_irregularity(step, 1, wheel)["track_z"] for wheel in (1, 5, 8)]
+    assert met[1] == pytest.approx(met[0], abs=1e-12) and met[2] == pytest.approx(met[0], abs=1e-12)
+    wheel = TRAIN.wheels[0]
+    x = 20.0 * step.time - wheel.delay + TRAIN.vehicles[0].length / 2 - wheel.x
+    on = x > 0.0
+    assert met[0][on] == pytest.approx(5e-3 * np.sin(2 * np.pi * x[on] / 14.4), abs=1e-9)
+
+
+def test_without_twist_fed_back_a_wheel_meets_the_sag_of_the_axis_only(ours):
+    step = staggered.begin(TRAIN, TRACK, AXIS, feedback="vertical", **OPTIONS)
+    step = staggered.next_forces(step, motion_of(ours.at(0), AXIS))
+    met = staggered.equivalent_irregularity(step, car=1, wheel=3)
+    assert not met["deck_y"].any()
+    for k in (400, 700, 900):
+        there = ours.at(0).displacement(20.0 * met.time[k] - TRAIN.wheels[2].delay)
+        assert abs(there["rotation_x"][k] * (2.4 + TRAIN.wheels[2].y)) > 1e-5
+        assert met["deck_z"][k] == pytest.approx(there["displacement_z"][k], rel=1e-3)
+
+
 # ---- bad input
 
 
