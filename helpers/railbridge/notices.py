@@ -120,7 +120,7 @@ def _pulling(run: Crossing) -> list[Remark]:
         f"Wheel {wheel.number} of car {wheel.car} pulls on the rail by "
         f"{run.wheel_forces[i, 1, k] / 1e3:.3g} kN (unloading {unloading[i, k]:.3g}) at "
         f"t = {t:.4g} s, {_place(run.settings.speed * t - wheel.delay, run.deck.length)}"
-        + (f", and {others} other wheel{'s' * (others > 1)} pull too" if others else "")
+        + f", and {others} other wheel{'s' * (others > 1)} too" * bool(others)
         + ": it would lift off, which is not computed."
     )
     return [ResultWarning("", text)]
