@@ -110,6 +110,8 @@ def test_forces_and_displacements_are_those_of_a_frame_program(beam, x, force, a
             theirs, abs=2e-5 * np.abs(moved).max() + 20 * size / RIGID
         )
     total = np.zeros(3)
+    # A pair of bearings close together holds a load far away by forces larger than the load.
+    size = max(size, *(abs(f) for (_, direction), f in forces.items() if direction < 3))
     taken = 4.0 * max((k for b in beam.bearings for k in b.stiffness.values()), default=0.0) / RIGID
     for i, b in enumerate(beam.bearings, start=1):
         for quantity, direction in QUANTITIES.items():
