@@ -152,7 +152,10 @@ def test_elements_converge_with_their_fourth_power(span, speed):
         cross(train, plane_deck(span, 2, int(c)), speed=speed, time_step=length / speed / 400)
         for c in [*count, 64]
     ]
-    errors = [np.abs(middle(r) - middle(runs[-1])).max() for r in runs[:-1]]
+    # Of the modes alone: the static rest of the others is nearly exact on any mesh.
+    half = length / 2
+    shown = [r.displacement(half, kept_only=True)["displacement_z"] for r in runs]
+    errors = [np.abs(one - shown[-1]).max() for one in shown[:-1]]
     assert all(a > 10 * b for a, b in zip(errors[:-1], errors[1:], strict=True)), errors
 
 
