@@ -26,6 +26,8 @@ __all__ = ["MovingLoads", "static_extremes"]
 
 _JUST = 1e-9
 """How far from a jump its two sides are taken, share of the deck."""
+_LARGEST = 2**27
+"""Bytes of the shapes that are taken at once."""
 _KINK = 1e-3
 """Smallest change of slope that counts as a kink, share of the largest slope."""
 
@@ -131,45 +133,73 @@ class MovingLoads:
         time, values : ndarray, shape (2 instants,)
             s, and the output.
         """
-        met = self._met(tuple(_breaks(line, self.coupling.deck.length)))
+        met = [self._met(float(x)) for x in _breaks(line, self.coupling.deck.length)]
+        values = [line.modal @ each.modal + self._static_at(line, each) for each in met]
+        return np.concatenate([each.time for each in met]), np.concatenate(values)
+
+    def _static_at(self, line: Line, met: _Met) -> np.ndarray:
+        """Return what an influence line gives under the loads of some instants, shape (n,)."""
         part = np.einsum("kc,kc->k", line.influence(met.x)[:, 0], met.load[:, :3])
         if np.any(met.load[:, 3:]):
             slope = line.influence(met.x, 1)[:, 0]
             part += slope[:, 0] * met.load[:, 4] - slope[:, 1] * met.load[:, 3]
-        return met.time, line.modal @ met.modal + np.bincount(met.when, part, len(met.time))
+        return np.bincount(met.when, part, len(met.time))
 
     @cached_property
-    def _known(self) -> dict[tuple, _Met]:
+    def _known(self) -> dict[float, _Met]:
         return {}
 
-    def _met(self, breaks: tuple[float, ...]) -> _Met:
-        """Return the loads and the modes' part when any load passes any of some places (m)."""
-        if breaks not in self._known:
-            self._known[breaks] = self._met_at(np.array(breaks))
-        return self._known[breaks]
+    def _met(self, place: float) -> _Met:
+        """Return the loads and the modes' part when any load passes a place (m)."""
+        if place not in self._known:
+            self._known[place] = self._met_at(place)
+        return self._known[place]
 
-    def _met_at(self, breaks: np.ndarray) -> _Met:
+    def _met_at(self, place: float) -> _Met:
         coupling, deck = self.coupling, self.coupling.deck
         speed, step = coupling.settings.speed, coupling.settings.time_step
-        delays, last = coupling.load_delays, len(coupling.time) - 2
-        instants = np.unique((delays[:, None] + breaks).ravel() / speed)
-        instants = instants[(instants >= 0.0) & (instants <= coupling.time[-1])]
+        instants = np.unique((coupling.load_delays + place) / speed)
+        instants = np.repeat(instants[(instants >= 0.0) & (instants <= coupling.time[-1])], 2)
         just = _JUST * deck.length / speed
-        time = (instants[:, None] + [-just, just]).ravel()
-        x = speed * time[:, None] - delays
-        when, station = np.nonzero((x >= 0.0) & (x <= deck.length))
-        x = x[when, station]
-        # From the last sample on, the modes go on under the forces of before the jump.
-        k = np.clip((np.repeat(instants, 2) / step).astype(int), 0, last)
-        span = np.maximum(np.repeat(instants, 2) - k * step, 0.0)
-        load = self._load_at(station, k[when], span[when] / step)
-        force = self._modal_force(load, x, when, len(time))
-        before = np.repeat(force[:, ::2], 2, axis=1)
-        omega, ratio = 2 * np.pi * deck.frequencies_hz, deck.damping_ratios
-        start = self.state.q[:, k], self.state.velocity[:, k]
-        q, rate = moved_on(omega, ratio, start, (self.state.modal_force[:, k], before), span)
-        modal = q + deck.internal_damping * rate - force / omega[:, None] ** 2
+        time = instants + np.tile([-just, just], len(instants) // 2)
+        when, station = self._on_deck(time)
+        x = speed * time[when] - coupling.load_delays[station]
+        # The sample before, and the share of the step since.
+        k = np.clip((instants / step).astype(int), 0, len(coupling.time) - 2)
+        s = np.clip(instants / step - k, 0.0, 1.0)
+        load = self._load_at(station, k[when], s[when])
+        omega = 2 * np.pi * deck.frequencies_hz[:, None]
+        if 0.0 < place < deck.length:
+            # The modes pass a section smoothly.
+            state = self.state
+            q = _hermite(state.q, state.velocity * step, k, s)
+            rate, force = (_between(v, k, s) for v in (state.velocity, state.modal_force))
+        else:
+            # Their forces jump: from the sample on they go on under those of before the jump.
+            force = self._modal_force(load, x, when, len(time))
+            q, rate = self._gone_on(k, s * step, np.repeat(force[:, ::2], 2, axis=1))
+        modal = q + deck.internal_damping * rate - force / omega**2
         return _Met(time, modal, when, x, load)
+
+    def _on_deck(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return which loads are on the deck at some times: numbers of times, and of stations."""
+        front = self.coupling.settings.speed * time
+        order = np.argsort(self.coupling.load_delays, kind="stable")
+        delays = self.coupling.load_delays[order]
+        first = np.searchsorted(delays, front - self.coupling.deck.length)
+        count = np.searchsorted(delays, front, side="right") - first
+        when = np.repeat(np.arange(len(time)), count)
+        within = np.arange(len(when)) - np.repeat(np.cumsum(count) - count, count)
+        return when, order[np.repeat(first, count) + within]
+
+    def _gone_on(
+        self, k: np.ndarray, span: np.ndarray, force: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return q and q' a while (s) after samples k, under forces that end at `force`."""
+        state, deck = self.state, self.coupling.deck
+        start = state.q[:, k], state.velocity[:, k]
+        forces = state.modal_force[:, k], force
+        return moved_on(2 * np.pi * deck.frequencies_hz, deck.damping_ratios, start, forces, span)
 
     def _load_at(self, station: np.ndarray, k: np.ndarray, s: np.ndarray) -> np.ndarray:
         """Return the loads of stations between samples k and k + 1, at the share s of the way.
@@ -187,11 +217,29 @@ class MovingLoads:
     ) -> np.ndarray:
         """Return the modal forces of loads at places x (m), summed up by instant (modes, n)."""
         deck = self.coupling.deck
-        part = np.einsum("kmc,kc->mk", deck.shapes(x), load[:, :3])
-        if np.any(load[:, 3:]):
-            slope = deck.shapes(x, 1)
-            part += (slope[:, :, 0] * load[:, 4:] - slope[:, :, 1] * load[:, 3:4]).T
-        return np.array([np.bincount(when, own, instants) for own in part])
+        result = np.zeros((deck.coordinates, instants))
+        together = max(_LARGEST // (48 * deck.coordinates), 1)
+        for first in range(0, len(x), together):
+            some = slice(first, first + together)
+            part = np.einsum("kmc,kc->mk", deck.shapes(x[some]), load[some, :3])
+            if np.any(load[some, 3:]):
+                slope = deck.shapes(x[some], 1)
+                part += (slope[:, :, 0] * load[some, 4:] - slope[:, :, 1] * load[some, 3:4]).T
+            for own, shares in zip(result, part, strict=True):
+                own += np.bincount(when[some], shares, instants)
+        return result
+
+
+def _between(values: np.ndarray, k: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """Return values between samples k and k + 1, at the share s of the way, shape (..., n)."""
+    return values[..., k] + s * (values[..., k + 1] - values[..., k])
+
+
+def _hermite(values: np.ndarray, rates: np.ndarray, k: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """Return the cubic through samples k and k + 1 with their rates (per step), as `_between`."""
+    rise = values[..., k + 1] - values[..., k]
+    bend = (1.0 - s) * (rates[..., k] - rise) - s * (rates[..., k + 1] - rise)
+    return values[..., k] + s * rise + s * (1.0 - s) * bend
 
 
 def _breaks(line: Line, length: float) -> np.ndarray:
