@@ -218,7 +218,8 @@ def test_a_body_names_the_field_that_cannot_be(field, value):
 
 
 def test_the_car_body_s_motion_is_taken_above_its_springs_and_in_its_middle():
-    assert CAR.body_places == pytest.approx({"front": 7.8, "middle": 0.0, "rear": -7.8})
+    places = {place: x for body, place, x in CAR.body_places if body is CAR.body}
+    assert places == pytest.approx({"front": 7.8, "middle": 0.0, "rear": -7.8})
 
 
 def test_springs_in_series_by_hand():
