@@ -1,6 +1,10 @@
 """What must hold whatever the numbers are: order, energy, equilibrium, linearity, symmetry, and the
 limits."""
 
+import json
+import os
+import subprocess
+import sys
 from dataclasses import dataclass
 
 import numpy as np
@@ -616,3 +620,32 @@ def test_a_fixed_deflected_shape_is_felt_like_the_same_irregularity(offset, spee
     second = level.coupling.cars[1]
     window, ours, known = second.window, felt[1], bumpy.coupling.cars[1].rigid
     assert np.abs(ours - known[..., window]).max() < 1e-6 * np.abs(known).max()
+
+
+_IN_NUMBERS = """
+import json, railbridge as rb
+case = rb.case("paper").replace({"train.cars": 2, "run.time_step": 2e-3})
+print(json.dumps(case.summary()))
+"""
+
+
+def test_the_number_of_threads_changes_nothing():
+    """The libraries below may share their work as they like."""
+
+    def numbers(threads):
+        names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+        env = os.environ | dict.fromkeys(names, str(threads))
+        done = subprocess.run(
+            [sys.executable, "-c", _IN_NUMBERS], env=env, capture_output=True, text=True, check=True
+        )
+        return json.loads(done.stdout)
+
+    def leaves(value):
+        if isinstance(value, dict):
+            return [leaf for v in value.values() for leaf in leaves(v)]
+        return [leaf for v in value for leaf in leaves(v)] if isinstance(value, list) else [value]
+
+    one, many = (leaves(numbers(threads)) for threads in (1, 8))
+    assert len(one) == len(many) > 300
+    for a, b in zip(one, many, strict=True):
+        assert a == (pytest.approx(b, rel=1e-9, abs=1e-9) if isinstance(b, float) else b)
