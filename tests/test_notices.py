@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import railbridge as rb
+from railbridge import notices
 from railbridge.notices import remarks, unsettled
 
 CAR = rb.vehicle("xia2000")
@@ -63,6 +64,15 @@ def test_a_wheel_that_pulls_is_named_with_place_and_time():
         f"Wheel {wheel.number} of car 1 pulls on the rail by {force / 1e3:.3g} kN (unloading "
     )
     assert f" at t = {run.time[k]:.4g} s, " in text
+
+
+@pytest.mark.parametrize(
+    ("x", "words"),
+    [(-0.5, "0.5 m before the deck"), (0.0, "at x = 0 m"), (0.5, "at x = 0.5 m"),
+     (36.0, "at x = 36 m"), (36.5, "0.5 m behind the deck")],
+)  # fmt: skip
+def test_places_are_told_from_the_deck(x, words):
+    assert notices._place(x, 36.0) == words
 
 
 def test_a_bearing_that_would_hold_the_deck_down_is_named():

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import railbridge as rb
+from railbridge import statics
 from railbridge.statics import _breaks
 
 CAR = rb.vehicle("xia2000")
@@ -87,6 +88,24 @@ def test_the_breaks_of_an_influence_line_are_its_ends_and_the_section():
     assert _breaks(recovery.reaction("force_z", 0.0), 36.0) == pytest.approx([0, 36])
     two = rb.Beam("two", (20.0, 30.0), 10e3, 5e10).deck().recovery
     assert _breaks(two.section("moment_vertical", 13.3), 50.0) == pytest.approx([0, 13.3, 50])
+
+
+def test_a_cubic_between_samples_is_met():
+    t = np.arange(5.0)
+    values, rates = t**3 - 2.0 * t, 3.0 * t**2 - 2.0
+    k, s = np.array([0, 1, 3]), np.array([0.25, 0.5, 0.9])
+    found = statics._hermite(np.stack([values, -values]), np.stack([rates, -rates]), k, s)
+    known = (k + s) ** 3 - 2.0 * (k + s)
+    assert found == pytest.approx(np.stack([known, -known]), rel=1e-12)
+    assert statics._between(values, k, s) == pytest.approx((1 - s) * values[k] + s * values[k + 1])
+
+
+def test_shapes_taken_a_few_at_a_time_give_the_same(monkeypatch):
+    whole = four_cars(20, 4e-3).reactions()[36.0].jumps("force_z")
+    monkeypatch.setattr(statics, "_LARGEST", 10_000)
+    few = four_cars(20, 4e-3).reactions()[36.0].jumps("force_z")
+    assert np.array_equal(whole[0], few[0]) and len(whole[0]) >= 16
+    assert few[1] == pytest.approx(whole[1], rel=1e-9, abs=1e-3)
 
 
 def test_what_happens_at_a_jump_is_told_by_the_summary():
