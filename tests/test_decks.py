@@ -302,3 +302,10 @@ def test_a_lateral_force_on_high_rails_twists_the_deck_by_the_lever():
     assert (
         np.abs(torque).max() > 1.3 * np.abs(sum(h["moment_x"] for h in without.values())[on]).max()
     )
+
+
+def test_a_history_is_a_table_over_time():
+    history = rb.History(np.array([0.0, 0.5]), {"a": np.array([1.0, 2.0])}, {"a": "kN"})
+    frame = history.to_frame()
+    assert frame.index.name == "t (s)" and frame.index.tolist() == [0.0, 0.5]
+    assert frame["a (kN)"].tolist() == [1.0, 2.0]
