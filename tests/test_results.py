@@ -123,3 +123,14 @@ def test_what_one_works_with_is_shown_in_three_lines():
     for thing in shown:
         text = repr(thing)
         assert type(thing).__name__ in text and len(text) <= 240 and "\n" not in text
+
+
+def test_histories_say_where_and_in_which_unit():
+    assert RUN.wheel_force(1, 3).where == "car 1, wheel 3"
+    forces = RUN.car_forces()
+    assert forces.where == "car 1"
+    assert forces.units == {
+        "force_y": "N", "force_z": "N", "moment_x": "N m", "moment_y": "N m", "moment_z": "N m",
+    }  # fmt: skip
+    bare = rb.cross(rb.AxleTrain([0.0], [1e5]), DECK, speed=20.0, time_step=2e-3)
+    assert bare.body_accelerations.shape == (0, 3, 2, len(bare.time))

@@ -2,7 +2,7 @@
 
 import inspect
 import tracemalloc
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -196,3 +196,10 @@ def test_too_large_a_run_is_refused_by_what_makes_it_so(changes, words):
     with pytest.raises(rb.InputError, match="GB of memory, too much: the limit is 2 GB") as error:
         rb.cross(*three, **own)
     assert str(error.value).startswith(words)
+
+
+def test_a_car_s_front_is_asked_for_its_length_before_anything_is_computed():
+    bare = rb.Train(replace(CAR, length=None))
+    assert check(bare, DECK, rb.Track(), speed=20.0).excitation == "wheels"
+    with pytest.raises(rb.InputError, match=r"excitation = 'car': .* has no length"):
+        check(bare, DECK, rb.Track(), speed=20.0, excitation="car")
