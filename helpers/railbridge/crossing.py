@@ -11,7 +11,7 @@ from typing import get_type_hints
 from .coupling import iterate, prepare
 from .decks import Deck
 from .direct import solve_directly
-from .errors import InputWarning, Remark, ResultWarning
+from .errors import Remark
 from .notices import remarks
 from .results import Crossing
 from .settings import Options, Settings, check
@@ -127,7 +127,7 @@ def cross(
 def warn_of(found: Iterable[Remark]) -> None:
     """Warn of what is doubtful, in the name of who called the caller."""
     for remark in found:
-        if isinstance(remark, (InputWarning, ResultWarning)):
+        if remark.warned:
             warnings.warn(remark, stacklevel=3)
 
 

@@ -92,6 +92,9 @@ class Remark(UserWarning):
         The sentence; after a field it goes on with the field's name.
     """
 
+    warned = False
+    """Whether it is also warned of."""
+
     def __init__(self, field: str, text: str) -> None:
         super().__init__(printable(f"{field} {text}" if field else text))
         self.field, self.text = field, text
@@ -106,9 +109,13 @@ class Remark(UserWarning):
 class InputWarning(Remark):
     """A value that can be used, but is unlikely to be meant."""
 
+    warned = True
+
 
 class ResultWarning(Remark):
     """What must be known before a result is read."""
+
+    warned = True
 
 
 def _renamed(field: str, names: Mapping[str, str]) -> str:

@@ -99,10 +99,9 @@ class Beam(BeamProperties):  # noqa: D101
         """Return modes, and which of them are kept where no number is given."""
         spans, asked = len(self.spans), 20 + 8 * len(self.spans)
         while True:
-            whole = self.mesh.size <= DENSE
-            natural = self.modes if whole else self.mesh.modes(asked)
+            natural = self.modes if self.mesh.size <= DENSE else self.mesh.modes(asked)
             excitable = np.flatnonzero(natural.excitable)
-            whole = whole or len(natural.names) >= self.mesh.basis.shape[1]
+            whole = len(natural.names) >= self.mesh.basis.shape[1]
             count = needed(natural, excitable, self.fields, spans, whole)
             if count is not None:
                 return natural, excitable[:count].tolist()

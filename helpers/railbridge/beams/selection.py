@@ -66,8 +66,7 @@ def needed(
         if not len(members) or frequencies[members[0]] > limit:
             if not whole and frequencies[-1] <= limit:
                 return None  # one may still come
-            if name != "vertical":
-                continue
+            continue
         if len(members) < wanted and not whole:
             return None
         counts.append(int(members[min(wanted, len(members)) - 1]) + 1)

@@ -23,7 +23,7 @@ from typing import Any, NoReturn, TextIO
 import numpy as np
 
 from ..crossing import NotConvergedError
-from ..errors import InputError, InputWarning, Remark, ResultWarning, printable
+from ..errors import InputError, InputWarning, Remark, printable
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
@@ -281,7 +281,7 @@ def _said_doubts(loaded: Case, strict: bool) -> set[str]:
 def _warn(remarks: Iterable[Remark]) -> None:
     """Print a line for every remark that is also warned of."""
     for remark in remarks:
-        if isinstance(remark, (InputWarning, ResultWarning)):
+        if remark.warned:
             _say(f"warning: {remark}")
 
 

@@ -116,7 +116,7 @@ def read_toml(path: Path, known: Iterable[str] = ()) -> dict[str, Any]:
         said: it may be somebody else's.
     """
     try:
-        content = tomllib.loads(read_text(path, largest=LARGEST_TOML).replace("\r\n", "\n"))
+        content = tomllib.loads(read_text(path, largest=LARGEST_TOML))
     except InputError as error:
         raise InputError("", None, error.allowed, error.remedy, path.name) from None
     except (ValueError, RecursionError) as error:

@@ -230,7 +230,7 @@ def deck_from_modes(
 
 def _still(functions: PiecewiseCubic, kept: np.ndarray, supports: Sequence[float]) -> list[Remark]:
     """Name a span that no mode moves up and down, as where a program was asked for too few."""
-    edges = np.unique([functions.edges[0], functions.edges[-1], *map(float, supports)])
+    edges = np.unique([functions.edges[0], functions.edges[-1], *supports])
     inside = (edges[1:] + edges[:-1]) / 2
     moving = np.abs(functions(inside)[:, kept, 1]).max(axis=1)
     everywhere = np.linspace(edges[0], edges[-1], 201)

@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 
 from .. import errors
 from ..cases.definition import Case
-from ..errors import InputError, InputWarning, Remark, ResultWarning
+from ..errors import InputError, Remark
 from ..plots.drawing import FIGURE_WIDTH, keep_limits, reuse_artists
 from ..plots.picture import Picture
 from ..results import Crossing
@@ -428,7 +428,7 @@ def _usual_remarks(case: Case, result: Any) -> Sequence[Remark]:
 
 def _as_html(remarks: Sequence[Remark]) -> str:
     """Return what is warned of as a box of a line each, the first few; nothing if there is none."""
-    warned = (r for r in remarks if isinstance(r, (InputWarning, ResultWarning)))
+    warned = (r for r in remarks if r.warned)
     lines = [escape(str(remark)) for remark in warned]
     if not lines:
         return ""
