@@ -39,6 +39,7 @@ _ROOMS = {
         "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table",
         "planar_car", "sprung_mass", "summarize", "two_bogie_car", "vehicle",
     ),
+    "lessons": ("check",),
     "validation": ("compared",),
 }  # fmt: skip
 """Names that a room offers here, too."""
@@ -46,6 +47,7 @@ _MODULES = {
     "boxes": "boxes",
     "exchange": "exchange",
     "identification": "validation.identification",
+    "lessons": "lessons",
     "panels": "panels",
     "paper": "validation.paper",
     "plots": "plots",
@@ -59,9 +61,9 @@ __all__ = [
     "Deck", "FadeIn", "Harmonic", "History", "InputError", "InputWarning", "Level",
     "NotConvergedError", "Notch", "Pads", "Passage", "Rails", "ResultWarning", "Spectrum", "Spring",
     "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box", "car_parameters", "case",
-    "compared", "cross", "data_root", "deck", "deck_from_table", "deviation_percent", "planar_car",
-    "rayleigh", "rayleigh_ratio", "remarks", "sprung_mass", "steady_forces", "summarize",
-    "two_bogie_car", "vehicle",
+    "check", "compared", "cross", "data_root", "deck", "deck_from_table", "deviation_percent",
+    "planar_car", "rayleigh", "rayleigh_ratio", "remarks", "sprung_mass", "steady_forces",
+    "summarize", "two_bogie_car", "vehicle",
 ]  # fmt: skip
 
 

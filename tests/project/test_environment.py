@@ -122,7 +122,7 @@ def test_import_is_light():
 def test_no_module_shares_its_name_with_something_public():
     """Else ``import railbridge.x as m`` gives the function in place of the module."""
     modules = {m.name for m in pkgutil.iter_modules(rb.__path__)} - {"__main__"}
-    rooms = {"boxes", "exchange", "panels", "paper", "plots", "validation"}
+    rooms = {"boxes", "exchange", "lessons", "panels", "paper", "plots", "validation"}
     assert modules & set(rb.__all__) <= rooms
     for name in sorted(modules):
         assert isinstance(importlib.import_module(f"railbridge.{name}"), types.ModuleType)

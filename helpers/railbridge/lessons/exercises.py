@@ -1,0 +1,209 @@
+"""What an exercise asks for, and what is right: the tables of ``answers/``, one file a notebook.
+
+A table is one of these kinds, told by the key that holds the answer::
+
+    ["1.1"]                          ["1.2"]                        ["1.3"]
+    number = 1.337                   numbers = [1.171, 0.566]       choice = "b"
+    unit = "Hz"                      names = ["bounce", "lowest"]   of = "abcd"
+    within = 0.003                   unit = "Hz"                    [ "1.3".replies ]
+    [[ "1.1".slips ]]                                               a = "..."
+    number = 1.451
+    says = "..."                     ["1.5"]
+                                     function = "frequencies"       (a name in `trials`)
+
+``right`` is said after a right answer, and ``hint`` after any wrong one. The numbers are those of
+the solutions in the notebooks: a test runs each of these and checks it.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError, did_you_mean
+from . import trials
+from .replies import UNANSWERED, Reply, is_open, list_reply, number_reply
+
+__all__ = ["Choice", "Exercise", "Number", "Numbers", "Slip", "Written", "exercise", "exercises"]
+
+ANSWERS = Path(__file__).with_name("answers")
+
+
+@dataclass(frozen=True)
+class Slip:
+    """A wrong number that is often given, and what is said to it."""
+
+    number: float
+    says: str
+
+
+@dataclass(frozen=True)
+class Number:
+    """One number is asked for.
+
+    Attributes
+    ----------
+    number : float
+    unit : str
+    within : float
+        Relative deviation that still is right.
+    near : float
+        Absolute deviation that still is right.
+    slips : tuple of Slip
+    """
+
+    number: float
+    unit: str = ""
+    within: float = 5e-3
+    near: float = 0.0
+    slips: tuple[Slip, ...] = ()
+
+    def reply(self, given: Any) -> Reply:
+        """Return what is said of an answer."""
+        options = {"within": self.within, "near": self.near, "unit": self.unit}
+        reply = number_reply(given, self.number, **options)
+        if reply.given and not reply.right:
+            for slip in self.slips:
+                if number_reply(given, slip.number, within=self.within, near=self.near).right:
+                    return Reply(0.0, slip.says)
+        return reply
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Several numbers are asked for, in a given order; `within`, `near` as in `Number`."""
+
+    numbers: tuple[float, ...]
+    names: tuple[str, ...] = ()
+    unit: str = ""
+    within: float = 5e-3
+    near: float = 0.0
+
+    def reply(self, given: Any) -> Reply:
+        """Return what is said of an answer."""
+        options = {"within": self.within, "near": self.near, "unit": self.unit}
+        return list_reply(given, self.numbers, self.names, **options)
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One letter is asked for.
+
+    Attributes
+    ----------
+    choice : str
+        The right letter.
+    of : str
+        All letters.
+    replies : dict
+        What is said to each wrong letter.
+    """
+
+    choice: str
+    of: str
+    replies: dict[str, str]
+
+    def reply(self, given: Any) -> Reply:
+        """Return what is said of an answer."""
+        if is_open(given) or given == "":
+            return UNANSWERED
+        letter = given.strip().strip("()").lower() if isinstance(given, str) else ""
+        if len(letter) != 1 or letter not in self.of:
+            return Reply(0.0, f"give one of the letters {', '.join(self.of)} in quotes.")
+        if letter == self.choice:
+            return Reply(1.0, "right.")
+        return Reply(0.0, self.replies.get(letter, "not right."), hinted=True)
+
+
+@dataclass(frozen=True)
+class Written:
+    """A function is asked for; it is tried on the cases of `trials`."""
+
+    function: str
+
+    def reply(self, given: Any) -> Reply:
+        """Return what is said of a function."""
+        return trials.reply(self.function, given)
+
+
+KINDS = {"number": Number, "numbers": Numbers, "choice": Choice, "function": Written}
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """One exercise of a notebook.
+
+    Attributes
+    ----------
+    name : str
+        Its number, such as ``1.2``, or ``1.guess``.
+    asks : Number, Numbers, Choice or Written
+    right : str
+        Said after a right answer.
+    hint : str
+        Said after a wrong one.
+    marks : int
+        What it is worth; a guess is worth nothing, whichever way it goes.
+    """
+
+    name: str
+    asks: Number | Numbers | Choice | Written
+    right: str = ""
+    hint: str = ""
+    marks: int = 1
+
+    @property
+    def variable(self) -> str:
+        """The name that its answer bears in the notebook."""
+        if isinstance(self.asks, Written):
+            return self.asks.function
+        return "answer_" + self.name.replace(".", "_")
+
+    def reply(self, given: Any) -> Reply:
+        """Return what is said of an answer, with what is added to it."""
+        reply = self.asks.reply(given)
+        added = self.right if reply.right else self.hint if reply.hinted else ""
+        return replace(reply, says=f"{reply.says} {added}".strip())
+
+
+@cache
+def exercises() -> dict[str, Exercise]:
+    """Return every exercise of the suite by its name, in the order of the notebooks."""
+    found: dict[str, Exercise] = {}
+    for path in sorted(ANSWERS.glob("[0-9][0-9].toml")):
+        for name, table in tomllib.loads(path.read_text(encoding="utf-8")).items():
+            found[name] = _exercise(name, dict(table))
+    return found
+
+
+def _exercise(name: str, table: dict[str, Any]) -> Exercise:
+    (key,) = KINDS.keys() & table.keys()
+    added = {k: table.pop(k) for k in ("right", "hint", "marks") if k in table}
+    for slips in ("numbers", "names"):
+        if slips in table:
+            table[slips] = tuple(table[slips])
+    if "slips" in table:
+        table["slips"] = tuple(Slip(**slip) for slip in table["slips"])
+    if key == "choice":
+        table.setdefault("replies", {})
+    return Exercise(name, KINDS[key](**table), **added)
+
+
+def exercise(name: Any) -> Exercise:
+    """Return one exercise.
+
+    Raises
+    ------
+    InputError
+        There is none of this name.
+    """
+    known = exercises()
+    if isinstance(name, (int, float)):
+        allowed = "must be text: the number of the exercise in quotes"
+        raise InputError("exercise", name, allowed, f'Write rb.check("{name}", ...)')
+    if not isinstance(name, str) or name not in known:
+        raise InputError("exercise", name, "is no exercise", did_you_mean(str(name), known))
+    return known[name]

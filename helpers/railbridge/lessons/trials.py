@@ -1,0 +1,241 @@
+"""Functions that learners write, and the cases that each is tried on.
+
+A trial calls the function with arguments of its own and compares what comes back with what the
+suite, or a closed form, gives. What is said names the case and the part of the result, never the
+number.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..decks import rayleigh
+from ..tracks import Notch
+from .replies import UNANSWERED, Reply, is_open, number_reply
+
+__all__ = ["TRIALS", "Case", "Trial", "reply"]
+
+
+@dataclass(frozen=True)
+class Case:
+    """One call.
+
+    Attributes
+    ----------
+    words : str
+        What the case is: "one wheel, left of the track".
+    arguments : tuple
+    expected : ndarray
+        What must come back.
+    """
+
+    words: str
+    arguments: tuple[Any, ...]
+    expected: np.ndarray
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A function that is asked for.
+
+    Attributes
+    ----------
+    cases : callable
+        Gives the cases.
+    parts : tuple of str
+        What the entries of a result are called; empty where the entries have no names.
+    within : float
+        Relative to the largest entry of the same part.
+    """
+
+    cases: Callable[[], list[Case]]
+    parts: tuple[str, ...] = ()
+    within: float = 1e-6
+
+
+def reply(name: str, given: Any) -> Reply:
+    """Return what is said of a function; its score is the share of the cases that it passes.
+
+    Parameters
+    ----------
+    name : str
+        One of `TRIALS`.
+    given : callable
+    """
+    if is_open(given):
+        return UNANSWERED
+    if not callable(given):
+        return Reply(0.0, f"a function is asked for: give {name} itself, without brackets.")
+    trial = TRIALS[name]
+    cases = trial.cases()
+    faults = [_fault(trial, case, given) for case in cases]
+    if all(fault is _NOTHING for fault in faults):
+        return Reply(0.0, "no answer yet: the function returns nothing.", given=False)
+    for number, (case, fault) in enumerate(zip(cases, faults, strict=True), start=1):
+        if fault:
+            passed = sum(not fault for fault in faults)
+            said = f"{passed} of {len(cases)} cases pass. Case {number}, {case.words}: {fault}"
+            return Reply(passed / len(cases), said, hinted=True)
+    return Reply(1.0, f"right: it passes all {len(cases)} cases.")
+
+
+_NOTHING = "it returns nothing. Does it end with return?"
+
+
+def _fault(trial: Trial, case: Case, given: Callable) -> str:
+    """Return what is wrong with one call, or nothing."""
+    try:
+        with np.errstate(all="ignore"):
+            result = given(*copy.deepcopy(case.arguments))
+    except Exception as error:  # whatever a learner's function may raise
+        return f"it stops with {type(error).__name__}: {error}."
+    if is_open(result):
+        return _NOTHING
+    try:
+        values = np.asarray(result, dtype=float)
+    except (TypeError, ValueError):
+        return "what it returns are no real numbers."
+    expected = np.asarray(case.expected, dtype=float)
+    if values.shape != expected.shape:
+        return f"it returns {_shape(values)}, {_shape(expected)} {_is_are(expected)} expected."
+    if not np.isfinite(values).all():
+        return "what it returns is not finite: is something divided by zero?"
+    return _difference(trial, values, expected)
+
+
+def _shape(values: np.ndarray) -> str:
+    if values.ndim == 0:
+        return "one number"
+    return " x ".join(map(str, values.shape)) + " numbers"
+
+
+def _is_are(values: np.ndarray) -> str:
+    return "are" if values.ndim else "is"
+
+
+def _difference(trial: Trial, values: np.ndarray, expected: np.ndarray) -> str:
+    if trial.parts:  # each part is compared with its own size
+        pairs = zip(trial.parts, values, expected, strict=True)
+    else:
+        pairs = iter([("", values, expected)])
+    for part, value, right in pairs:
+        scale = np.abs(expected).max() if np.ndim(right) == 0 else np.abs(right).max()
+        off = np.abs(value - right)
+        if np.max(off) > trial.within * (np.abs(right).max() or scale or 1.0):
+            worst = np.unravel_index(np.argmax(off), off.shape)
+            near = trial.within * (scale or 1.0)
+            said = number_reply(value[worst], right[worst], within=trial.within, near=near).says
+            return f"{part}: {said}" if part else said
+    return ""
+
+
+# ---- the functions, in the order of the notebooks
+
+
+def _frequencies() -> list[Case]:
+    def chain(n: int, mass: float, stiffness: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return equal masses between equal springs, the first on the ground, the last free."""
+        k = stiffness * (2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
+        k[-1, -1] = stiffness
+        return mass * np.eye(n), k
+
+    def closed(n: int, mass: float, stiffness: float) -> np.ndarray:
+        angles = (2 * np.arange(1, n + 1) - 1) * np.pi / (2 * (2 * n + 1))
+        return np.sqrt(stiffness / mass) * np.sin(angles) / np.pi
+
+    pair = np.array([[2.0, -1.0], [-1.0, 2.0]]) * 1e6
+    turned = np.diag([2.0e3, 5.0e3])
+    omega = np.sqrt(np.array([7.0 - np.sqrt(19.0), 7.0 + np.sqrt(19.0)]) / 10.0 * 1e3)
+    return [
+        Case("one mass on one spring", chain(1, 50e3, 4e6), closed(1, 50e3, 4e6)),
+        Case("two unequal masses", (turned, pair), omega / (2 * np.pi)),
+        Case("a chain of five", chain(5, 4e3, 2e6), closed(5, 4e3, 2e6)),
+    ]
+
+
+def _notch_shape() -> list[Case]:
+    def case(words: str, depth: float, length: float) -> Case:
+        xi = np.linspace(-0.5, 2.5, 61) * length
+        notch = Notch(((1, 1),), circumference=1e3, offset=0.0, depth=depth, length=length)
+        return Case(words, (xi, depth, length), notch.value(xi))
+
+    return [
+        case("1 mm deep, 50 mm long", 1e-3, 0.05),
+        case("2 mm deep, 80 mm long", 2e-3, 0.08),
+        case("a shallow one of 0.1 mm", 1e-4, 0.03),
+    ]
+
+
+def _condensed() -> list[Case]:
+    def case(words: str, x: list[float], y: list[float], forces: list[list[float]]) -> Case:
+        places, sides, loads = np.array(x), np.array(y), np.array(forces)
+        across, up = loads.T
+        expected = [across.sum(), up.sum(), sides @ up, -places @ up, places @ across]
+        return Case(words, (places, sides, loads), np.array(expected))
+
+    return [
+        case("one wheel ahead of the centre", [2.0], [0.0], [[0.0, -50e3]]),
+        case(
+            "an axle, pushed to the left", [1.5, 1.5], [0.98, -0.98], [[3e3, -70e3], [1e3, -76e3]]
+        ),
+        case(
+            "two axles, four wheels",
+            [9.05, 9.05, -6.55, -6.55],
+            [0.98, -0.98, 0.98, -0.98],
+            [[1e3, -73e3], [-2e3, -71e3], [4e3, -75e3], [5e2, -74e3]],
+        ),
+    ]
+
+
+def _rayleigh_coefficients() -> list[Case]:
+    rows = [(0.03, 3.307, 16.30), (0.01, 2.0, 9.0), (0.05, 0.8, 30.0)]
+    return [
+        Case(f"{100 * r:g} % at {a:g} and {b:g} Hz", (r, a, b), np.array(rayleigh(r, (a, b))))
+        for r, a, b in rows
+    ]
+
+
+def _static_moment() -> list[Case]:
+    def case(words: str, places: list[float], forces: list[float], x: float, span: float) -> Case:
+        a, up = np.array(places), 1e3 * np.array(forces)
+        roof = np.where(a <= x, a * (span - x), x * (span - a)) / span
+        on = (a >= 0) & (a <= span)
+        return Case(words, (a, up, x, span), np.array(np.sum(up[on] * roof[on])))
+
+    four, some = [8.9, 11.4, 24.5, 27.0], [-2.0, 5.0, 19.0, 23.0]
+    return [
+        case("one load in the middle", [18.0], [-100.0], 18.0, 36.0),
+        case("four axles, section off the middle", four, [-146.0] * 4, 12.0, 36.0),
+        case("axles before and behind", some, [-100.0, -200.0, -100.0, -300.0], 9.0, 20.0),
+    ]
+
+
+def _fixed_point() -> list[Case]:
+    def linear(x: float) -> float:
+        return -0.6 * x + 4.0
+
+    def pair(x: np.ndarray) -> np.ndarray:
+        return np.array([[0.2, 0.5], [-0.4, 0.1]]) @ np.asarray(x) + np.array([1.0, 2.0])
+
+    both = np.linalg.solve(np.eye(2) - np.array([[0.2, 0.5], [-0.4, 0.1]]), [1.0, 2.0])
+    return [
+        Case("x = cos x, from 1", (np.cos, 1.0), np.array(0.7390851332151607)),
+        Case("x = 4 - 0.6 x, from 0", (linear, 0.0), np.array(2.5)),
+        Case("two unknowns, from zero", (pair, np.zeros(2)), both),
+    ]
+
+
+TRIALS = {
+    "frequencies": Trial(_frequencies),
+    "notch_shape": Trial(_notch_shape),
+    "condense": Trial(_condensed, ("F_y", "F_z", "M_x", "M_y", "M_z")),
+    "rayleigh_coefficients": Trial(_rayleigh_coefficients, ("alpha", "beta")),
+    "static_moment": Trial(_static_moment),
+    "fixed_point": Trial(_fixed_point),
+}
+"""The functions that exercises ask for, by the name that each bears in its notebook."""

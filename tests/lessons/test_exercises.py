@@ -1,0 +1,75 @@
+"""The tables of answers: complete, of the kinds there are, and read without loss."""
+
+import re
+
+import pytest
+
+from railbridge.errors import InputError
+from railbridge.lessons import exercise, exercises
+from railbridge.lessons.exercises import Choice, Exercise, Number, Numbers, Slip, Written
+from railbridge.lessons.trials import TRIALS
+
+
+def test_every_exercise_is_named_after_its_notebook():
+    for name in exercises():
+        assert re.fullmatch(r"\d{1,2}\.(\d|guess\d?)", name), name
+
+
+def test_no_reply_of_a_table_gives_the_number_away():
+    for name, asked in exercises().items():
+        if isinstance(asked.asks, Number):
+            said = [asked.hint, *(slip.says for slip in asked.asks.slips)]
+            assert not any(f"{asked.asks.number:g}" in text for text in said), name
+
+
+def test_every_function_that_is_asked_for_has_its_trial():
+    asked = {e.asks.function for e in exercises().values() if isinstance(e.asks, Written)}
+    assert asked <= TRIALS.keys()
+
+
+def test_every_letter_of_a_choice_has_its_reply():
+    for name, asked in exercises().items():
+        if isinstance(asked.asks, Choice):
+            wrong = set(asked.asks.of) - {asked.asks.choice}
+            assert asked.asks.choice in asked.asks.of and wrong == asked.asks.replies.keys(), name
+
+
+def test_an_unknown_exercise_is_refused_with_the_nearest():
+    with pytest.raises(InputError, match=r"exercise = '1.1x'.*Did you mean '1\.1'"):
+        exercise("1.1x")
+    with pytest.raises(InputError, match=r'in quotes.*rb.check\("1.1"'):
+        exercise(1.1)
+    with pytest.raises(InputError, match="is no exercise"):
+        exercise(None)
+
+
+def test_a_known_slip_has_its_own_words():
+    asked = Number(1.337, "Hz", slips=(Slip(1.451, "that is the secondary springs alone."),))
+    assert asked.reply(1.451).says == "that is the secondary springs alone."
+    assert "too high" in asked.reply(1.6).says and asked.reply(1.337).right
+    assert not asked.reply(...).given
+
+
+def test_a_choice_is_a_letter():
+    asked = Choice("b", "abc", {"a": "not a: the spring is soft."})
+    assert asked.reply("B").right and asked.reply(" (b) ").right
+    assert asked.reply("a").says == "not a: the spring is soft."
+    assert asked.reply("c").says == "not right."
+    assert not asked.reply(...).given and not asked.reply("").given
+    for value in ("d", "", "ab", 2, None):
+        assert not asked.reply(value).right
+    assert "one of the letters a, b, c" in asked.reply("d").says
+
+
+def test_words_are_added_to_right_and_to_wrong():
+    asked = Exercise("9.1", Numbers((1.0, 2.0)), right="Well seen.", hint="Look at (9.1).")
+    assert asked.reply([1.0, 2.0]).says == "right. Well seen."
+    assert asked.reply([1.0, 9.0]).says.endswith("Look at (9.1).")
+    assert "Look" not in asked.reply(...).says and "Look" not in asked.reply("x").says
+
+
+def test_an_answer_has_a_variable_of_its_own():
+    assert Exercise("1.2", Number(1.0)).variable == "answer_1_2"
+    assert Exercise("3.4", Written("condense")).variable == "condense"
+    names = [asked.variable for asked in exercises().values()]
+    assert len(names) == len(set(names))

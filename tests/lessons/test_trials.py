@@ -1,0 +1,106 @@
+"""Functions that learners write: the right one passes, and each wrong one is told why."""
+
+import re
+
+import numpy as np
+import pytest
+from scipy import linalg
+
+from railbridge.lessons.trials import TRIALS, reply
+
+
+def frequencies(mass, stiffness):
+    return np.sqrt(linalg.eigvalsh(stiffness, mass)) / (2 * np.pi)
+
+
+def notch_shape(x, depth, length):
+    inside = (x >= 0) & (x <= length)
+    return -depth / 2 * (1 - np.cos(2 * np.pi * x / length)) * inside
+
+
+def condense(x, y, force):
+    across, up = np.asarray(force).T
+    return across.sum(), up.sum(), sum(y * up), -sum(x * up), sum(x * across)
+
+
+def rayleigh_coefficients(ratio, first, second):
+    omega = 2 * np.pi * np.array([first, second])
+    rows = np.stack([1 / (2 * omega), omega / 2], axis=1)
+    return np.linalg.solve(rows, [ratio, ratio])
+
+
+def static_moment(places, forces, x, span):
+    total = 0.0
+    for a, force in zip(places, forces, strict=True):
+        if 0 <= a <= span:
+            total += force * min(a * (span - x), x * (span - a)) / span
+    return total
+
+
+def fixed_point(function, start):
+    for _ in range(200):
+        start = function(start)
+    return start
+
+
+WRITTEN = {
+    f.__name__: f
+    for f in (
+        frequencies, notch_shape, condense, rayleigh_coefficients, static_moment, fixed_point,
+    )
+}  # fmt: skip
+
+
+def test_each_trial_is_passed_by_a_function_written_here():
+    assert WRITTEN.keys() == TRIALS.keys()
+    for name, function in WRITTEN.items():
+        assert reply(name, function).says == "right: it passes all 3 cases.", name
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong", "words"),
+    [
+        ("frequencies", lambda m, k: 2 * np.pi * frequencies(m, k), "2 pi times off"),
+        ("frequencies", lambda m, k: frequencies(m, k)[:1], "case 2|Case 2.*1 numbers"),
+        ("notch_shape", lambda x, a, b: -notch_shape(x, a, b), "the sign is not"),
+        ("notch_shape", lambda x, a, b: 2 * notch_shape(x, a, b), "twice or half"),
+        ("condense", lambda *a: condense(*a)[:3], "it returns 3 numbers, 5 numbers are expected"),
+        ("condense", lambda *a: np.array(condense(*a)) * [1, 1, 1, -1, 1], "M_y: .*the sign"),
+        ("rayleigh_coefficients", lambda *a: rayleigh_coefficients(*a)[::-1], "alpha: "),
+        ("static_moment", lambda *a: -static_moment(*a), "the sign is not"),
+        ("static_moment", lambda a, f, x, span: f[0] * x * (span - x) / span, "1 of 3 cases pass"),
+        ("fixed_point", lambda f, x: f(f(x)), "Case 1, x = cos x, from 1: .*too low|high"),
+        ("condense", lambda *a: "text", "no real numbers"),
+        ("fixed_point", lambda f, x: np.nan, "not finite"),
+        ("static_moment", lambda *a: 1 / 0, "stops with ZeroDivisionError"),
+        ("static_moment", lambda a: 0, "stops with TypeError"),
+    ],
+)
+def test_a_wrong_function_is_told_why(name, wrong, words):
+    found = reply(name, wrong)
+    assert not found.right and found.given
+    assert re.search(words, found.says), found.says
+
+
+def test_what_returns_nothing_is_no_answer_yet():
+    assert not reply("condense", lambda x, y, force: ...).given
+    assert not reply("condense", ...).given
+    assert "without brackets" in reply("condense", 3.0).says
+
+
+def test_half_a_function_has_half_the_score():
+    def only_the_middle(places, forces, x, span):
+        return static_moment(places, forces, x, span) if len(places) == 1 else None
+
+    found = reply("static_moment", only_the_middle)
+    assert found.score == pytest.approx(1 / 3)
+    assert "Case 2" in found.says and "end with return" in found.says
+
+
+def test_a_function_may_change_what_it_was_given():
+    def greedy(places, forces, x, span):
+        total = static_moment(places, forces, x, span)
+        forces[:] = 0.0
+        return total
+
+    assert reply("static_moment", greedy).right and reply("static_moment", greedy).right
