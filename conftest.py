@@ -1,6 +1,6 @@
 """How tests are run.
 
-Notebooks: nbval runs every cell; those marked `# NBVAL_CHECK_OUTPUT` must print what is stored.
+Notebooks: nbval runs every cell; those tagged `nbval-check-output` must print what is stored.
 What needs an extra that is not installed is skipped with the extra's name.
 """
 

@@ -21,14 +21,10 @@ TEMPLATE = FOLDER / "_template.ipynb"
 TEMPLATE_NUMBER = "99"
 NUMBERED = sorted(FOLDER.glob("[0-9][0-9]_*.ipynb"))
 
-GOALS, SYMBOLS, THEORY, SOLVE = (
-    "What you will be able to do",
-    "Sketch and symbols",
-    "Theory",
-    "Build, solve, look",
-)
+GOALS, THEORY, SOLVE = "What you will be able to do", "Theory", "Build, solve, look"
 OPEN, CHECK, EXPLORE, EXERCISES = "Open the box", "Check", "Explore", "Exercises"
-FOUND, REFERENCES = "What we found", "References"
+FOUND, REFERENCES, SYMBOLS = "What we found", "References", "Symbols"
+OPENING = ""  # what stands before the first second-level heading
 
 
 @dataclass(frozen=True)
@@ -37,7 +33,6 @@ class Page:
 
     sections: tuple = (
         GOALS,
-        SYMBOLS,
         THEORY,
         SOLVE,
         OPEN,
@@ -46,6 +41,7 @@ class Page:
         EXERCISES,
         FOUND,
         REFERENCES,
+        SYMBOLS,
     )
     words: tuple = (500, 1500)
     code_lines: tuple = (40, 130)
@@ -57,10 +53,8 @@ class Page:
 # one with two programs.
 PAGES = {
     "00": Page((GOALS, EXPLORE, FOUND, REFERENCES), (200, 1200), (5, 80), (), ("You need", "Time")),
-    # Two hierarchies of deck, and how the second was found.
-    "04": Page(words=(500, 2700), code_lines=(40, 220)),
-    "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3000), (20, 220), (), ("You need", "Time")),
-    "09": Page((GOALS, SYMBOLS, CHECK, EXERCISES, FOUND, REFERENCES), (500, 3000), (20, 280)),
+    "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3000), (20, 260), (), ("You need", "Time")),
+    "09": Page((GOALS, CHECK, EXERCISES, FOUND, REFERENCES, SYMBOLS), (500, 3000), (20, 280)),
     # The other program that the page needs is written out on it.
     "12": Page(code_lines=(40, 170)),
 }
@@ -73,18 +67,21 @@ COLOURS = "plt.style.use(rb.plots.STYLE)"
 FIGURE_WORDS = 12
 FILE_BYTES = 400_000
 
-MARKED = "NBVAL_CHECK_OUTPUT"
+# Tags of a cell. The first two are read by nbval and by railbridge.lessons.
+MARKED, ANSWER, CHECKS, EXEMPT = "nbval-check-output", "answer", "check", "not-compared: "
 # A section or a shell of a box; and where the page says what that needs.
 USES_FEM = re.compile(r"\brb\.box\(|\brb\.Box\(|railbridge\.boxes\b")
 SAYS_FEM = re.compile(r"# .*\n\nNeeds the extra `fem`")
-EXEMPT = re.compile(r"^# not compared: \S.*\S", re.MULTILINE)
 SYMBOL_HEADER = ["symbol", "in code", "meaning", "unit", "value", "source"]
 RAW_IN_JUPYTER = {
     r"\eqref": "write (3.1) as text",
     ":::{": "use <details> or an alert",
     "> [!": "use an alert <div>",
 }
-FORBIDDEN_MARKERS = ("NBVAL_SKIP", "NBVAL_IGNORE_OUTPUT", "NBVAL_RAISES_EXCEPTION")
+FORBIDDEN_TAGS = ("nbval-skip", "nbval-ignore-output", "nbval-raises-exception", "raises-exception")
+# What belongs to tests and stands in tags and docs, not in a lesson.
+MACHINERY = re.compile(r"NBVAL_|\bnbval\b|\btest_\w+|\bpytest\b")
+FOLDED = re.compile(r"<details>.*?</details>", re.DOTALL)
 MACHINE_PATH = re.compile(r"(?<![\w.])/(?:home|root|tmp|Users)/|\b[A-Z]:\\")
 WIDGET = "application/vnd.jupyter.widget-"
 
@@ -110,11 +107,13 @@ def is_text(cell):
     return cell.cell_type == "markdown"
 
 
-def marker(cell, name):
-    return any(
-        line.strip().lstrip("#").strip() == name and "#" in line
-        for line in cell.source.splitlines()
-    )
+def tags(cell):
+    return cell.metadata.get("tags", [])
+
+
+def exempt(cell):
+    """True if the cell says why what it prints is not compared."""
+    return any(tag.startswith(EXEMPT) and len(tag) > len(EXEMPT) + 10 for tag in tags(cell))
 
 
 def figures(cell):
@@ -149,20 +148,19 @@ def prints(cell):
 
 
 def code_lines(cell):
-    """Lines that a reader has to read: not blank, no marker of ours, not the setting that stands on
-    every page."""
+    """Lines that a reader has to read: not blank, not the setting that stands on every page."""
     lines = [line.strip() for line in cell.source.splitlines()]
-    return [
-        line
-        for line in lines
-        if line and line.strip("# ") != MARKED and not EXEMPT.match(line) and COLOURS not in line
-    ]
+    return [line for line in lines if line and COLOURS not in line]
 
 
 def prose(cell):
-    """The words of a text cell, without formulas, tables, links' targets, HTML tags and code."""
+    """The words of a text cell, without what is folded, formulas, tables, links' targets, HTML tags
+    and code."""
     text = re.sub(
-        r"```.*?```|\$\$.*?\$\$|\$[^$\n]*\$|<[^>]+>|\]\([^)]*\)", " ", cell.source, flags=re.DOTALL
+        r"```.*?```|\$\$.*?\$\$|\$[^$\n]*\$|<[^>]+>|\]\([^)]*\)",
+        " ",
+        FOLDED.sub(" ", cell.source),
+        flags=re.DOTALL,
     )
     text = re.sub(r"^\s*\|.*$", " ", text, flags=re.MULTILINE)
     return [word for word in text.split() if re.search(r"[^\W\d_]", word)]
@@ -211,9 +209,11 @@ def rules_of_the_page(notebook, number, page):
         yield "sections stand in this order: " + ", ".join(page.sections)
     sections = section_of(notebook)
     for need in page.needs:
-        if f"**{need}:**" not in joined(sections.get(GOALS, [])):
-            yield f"'**{need}:**' stands in '{GOALS}'"
+        if f"**{need}:**" not in joined(sections[OPENING]):
+            yield f"'**{need}:**' stands above '{GOALS}'"
     text = joined(filter(is_text, notebook.cells))
+    if found := MACHINERY.search(joined(notebook.cells)):
+        yield f"how pages are tested is no part of a lesson: '{found.group()}'"
     for raw, instead in RAW_IN_JUPYTER.items():
         if raw in text:
             yield f"JupyterLab shows '{raw}' as it is: {instead}"
@@ -222,59 +222,95 @@ def rules_of_the_page(notebook, number, page):
         yield f"{page.words[0]} to {page.words[1]} words of text, not {words}"
 
 
+def rules_of_the_opening(notebook, number, page):
+    """Something to see and something to guess come first."""
+    opening = section_of(notebook)[OPENING]
+    seen = [cell for cell in opening if figures(cell) or is_panel(cell)]
+    if not seen:
+        yield f"a picture or a panel stands above '{GOALS}'"
+    if page.exercises:
+        guess = f"guess_{int(number)}"
+        if not any(ANSWER in tags(cell) and f"{guess} = ..." in cell.source for cell in opening):
+            yield f"a guess to write down, '{guess} = ...' tagged {ANSWER}, above '{GOALS}'"
+        asked = f'rb.check("{int(number)}.guess", {guess})'
+        if not any(CHECKS in tags(cell) and cell.source == asked for cell in notebook.cells):
+            yield f"where the page shows it, the guess is checked: {asked}"
+
+
 def rules_of_the_sections(notebook, number, page):
     sections = section_of(notebook)
     if SYMBOLS in page.sections:
-        text = joined(filter(is_text, sections.get(SYMBOLS, [])))
+        folds = FOLDED.findall(joined(filter(is_text, sections.get(SYMBOLS, []))))
         rows = [
             [entry.strip().lower() for entry in line.strip("| ").split("|")]
-            for line in text.splitlines()
+            for line in "\n".join(folds).splitlines()
         ]
         if SYMBOL_HEADER not in rows:
-            yield "a symbol table with the columns " + " | ".join(SYMBOL_HEADER)
-        if (
-            "![" not in text
-            and "```" not in text
-            and not any(map(figures, sections.get(SYMBOLS, [])))
-        ):
-            yield f"a sketch (picture, figure or fenced drawing) in '{SYMBOLS}'"
+            yield "a folded symbol table with the columns " + " | ".join(SYMBOL_HEADER)
+    if THEORY in page.sections:
+        code = joined(filter(is_code, notebook.cells))
+        if "rb.plots.diagram(" not in code and "rb.plots.vehicle(" not in code:
+            yield "a drawn sketch: rb.plots.diagram or rb.plots.vehicle"
+        if re.search(r"```\n[^`]*(?:--|\|)", joined(filter(is_text, notebook.cells))):
+            yield "sketches are drawn, not made of letters"
     if THEORY in page.sections and rf"\tag{{{int(number)}." not in joined(sections.get(THEORY, [])):
         yield rf"numbered equations in '{THEORY}': \tag{{{int(number)}.1}}"
     if OPEN in page.sections and not any(
         "assert" in c.source for c in sections.get(OPEN, []) if is_code(c)
     ):
         yield f"'{OPEN}' asserts that the derivation equals the helper"
-    if CHECK in page.sections and not any(marker(cell, MARKED) for cell in sections.get(CHECK, [])):
-        yield f"'{CHECK}' compares numbers in a cell marked # {MARKED}"
+    if CHECK in page.sections and not any(MARKED in tags(cell) for cell in sections.get(CHECK, [])):
+        yield f"'{CHECK}' compares numbers in a cell tagged {MARKED}"
     for heading, cells in sections.items():
         for i, cell in enumerate(cells):
-            if is_panel(cell) and not any(map(figures, cells[:i])):
+            if heading and is_panel(cell) and not any(map(figures, cells[:i])):
                 yield f"in '{heading}' a static figure stands before the panel"
-    yield from rules_of_the_exercises(
-        joined(filter(is_text, sections.get(EXERCISES, []))), number, page
-    )
+    yield from rules_of_the_exercises(sections.get(EXERCISES, []), number, page)
     text = joined(notebook.cells)
     if text.count("<details>") != text.count("</details>"):
         yield "every <details> is closed"
 
 
-def rules_of_the_exercises(text, number, page):
+def rules_of_the_exercises(cells, number, page):
+    """Each has a cell to answer in, one that answers, a hint and a solution that can be run."""
     if not page.exercises:
         return
-    parts = re.split(r"^### +", text, flags=re.MULTILINE)[1:]
-    titles = [part.splitlines()[0] for part in parts]
+    parts, current = [], None
+    for cell in cells:
+        for title in headings(cell, 3):
+            current = (title, [])
+            if title.startswith("Exercise"):
+                parts.append(current)
+        if current:
+            current[1].append(cell)
+    titles = [title for title, _ in parts]
     for kind in page.exercises:
         if not any(title.endswith(f"({kind})") for title in titles):
             yield f"an exercise '### Exercise {int(number)}.1 ({kind})'"
-    for i, (title, part) in enumerate(zip(titles, parts, strict=True), start=1):
+    if any("assert" in cell.source for cell in cells if is_code(cell)):
+        yield f"no assert in '{EXERCISES}': it gives the solution away"
+    for i, (title, part) in enumerate(parts, start=1):
         if not title.startswith(f"Exercise {int(number)}.{i} ("):
             yield f"exercise {i} is called '### Exercise {int(number)}.{i} (...)', not '{title}'"
+        text = joined(filter(is_text, part))
         for fold in ("Hint", "Solution"):
-            if not re.search(rf"<details>\s*<summary>{fold}[^<]*</summary>\n\n", part):
+            if not re.search(rf"<details>\s*<summary>{fold}[^<]*</summary>\n\n", text):
                 yield (
                     f"'{title}': <details><summary>{fold}</summary>, then an empty line, "
                     "then the text"
                 )
+        name = f"{int(number)}.{i}"
+        answers = [cell for cell in part if ANSWER in tags(cell)]
+        checks = [cell for cell in part if CHECKS in tags(cell)]
+        if len(answers) != 1 or "..." not in answers[0].source:
+            yield f"'{title}': one cell tagged {ANSWER}, with three dots to replace"
+        called = rf'rb\.check\("{re.escape(name)}", \w+\)'
+        if len(checks) != 1 or not re.fullmatch(called, checks[0].source):
+            yield f"'{title}': one cell tagged {CHECKS}: rb.check(\"{name}\", ...)"
+        if not re.search(r"<summary>Solution[^<]*</summary>.*```python\n", text, re.DOTALL):
+            yield f"'{title}': the solution has a block of Python that can stand in the answer cell"
+        if any(FOLDED.sub("", cell.source).strip() for cell in part[-1:] if is_text(cell)):
+            yield f"'{title}': the solution has a text cell of its own, the last one"
 
 
 def rules_of_the_cells(notebook, number, page):
@@ -285,17 +321,17 @@ def rules_of_the_cells(notebook, number, page):
         if not is_code(cell):
             continue
         lines = code_lines(cell)
-        total += len(lines)
+        total += 0 if {ANSWER, CHECKS} & {*tags(cell)} else len(lines)
         name = f"cell '{lines[0][:40] if lines else ''}'"
-        if before is None or not is_text(before):
+        if before is None or (not is_text(before) and CHECKS not in tags(cell)):
             yield f"{name}: a text cell stands before it"
         if not lines:
             yield f"{name} is empty"
         if len(lines) > CELL_LINES:
             yield f"{name}: {len(lines)} lines, limit {CELL_LINES}"
-        for word in FORBIDDEN_MARKERS:
-            if marker(cell, word):
-                yield f"{name}: {word} hides what is printed; write '# not compared: reason'"
+        for tag in FORBIDDEN_TAGS:
+            if tag in tags(cell):
+                yield f"{name}: {tag} hides what is printed; tag it '{EXEMPT}reason'"
     if not page.code_lines[0] <= total <= page.code_lines[1]:
         yield f"{page.code_lines[0]} to {page.code_lines[1]} lines of code, not {total}"
     importing = [
@@ -336,9 +372,9 @@ def rules_of_the_outputs(notebook, number, page):
         yield "no stored widget state"
     for cell in filter(is_code, notebook.cells):
         name = f"cell '{cell.source.splitlines()[0][:40] if cell.source else ''}'"
-        marked, exempt = marker(cell, MARKED), bool(EXEMPT.search(cell.source))
-        if prints(cell) and not marked and not exempt:
-            yield f"{name} prints: mark it '# {MARKED}' or '# not compared: reason'"
+        marked = MARKED in tags(cell)
+        if prints(cell) and not marked and not exempt(cell):
+            yield f"{name} prints: tag it '{MARKED}' or '{EXEMPT}reason'"
         for line in "".join(
             out.text for out in cell.outputs if out.get("name") == "stdout"
         ).splitlines():
@@ -347,9 +383,9 @@ def rules_of_the_outputs(notebook, number, page):
                     f"{name} prints {len(line)} letters in a line, limit {PRINTED_LETTERS}: "
                     f"'{line[:30]}'"
                 )
-        if (marked or exempt) and not prints(cell):
+        if (marked or exempt(cell)) and not prints(cell):
             yield f"{name} is marked but prints nothing"
-        if marked and exempt:
+        if marked and exempt(cell):
             yield f"{name} is marked both for comparison and as not compared"
         for out in cell.outputs:
             if out.output_type == "error":
@@ -394,6 +430,7 @@ def broken_rules(notebook, path):
     page = PAGES.get(number, Page())
     groups = (
         rules_of_the_page,
+        rules_of_the_opening,
         rules_of_the_sections,
         rules_of_the_cells,
         rules_of_the_figures,
@@ -435,10 +472,10 @@ def test_printed_cells_are_compared():
         if is_code(c)
     ]
     printing = [cell for cell in cells if prints(cell)]
-    compared = [cell for cell in printing if marker(cell, MARKED)]
-    exempt = [cell for cell in printing if EXEMPT.search(cell.source)]
-    assert len(compared) + len(exempt) == len(printing)
-    assert len(exempt) < len(compared), "most of what is printed can be compared"
+    compared = [cell for cell in printing if MARKED in tags(cell)]
+    left_out = [cell for cell in printing if exempt(cell)]
+    assert len(compared) + len(left_out) == len(printing)
+    assert len(left_out) < len(compared), "most of what is printed can be compared"
 
 
 # ---- and no rule is asleep: each of these breaks the template in one place
@@ -517,8 +554,49 @@ BREAKING = {
         lambda nb: nb.cells[0].update(source=nb.cells[0].source + " word" * 1500),
         "words of text",
     ),
-    "no symbol table": (replace("| symbol |", "| sign |"), "a symbol table"),
-    "no sketch": (replace("```", ""), "a sketch"),
+    "no symbol table": (replace("| symbol |", "| sign |"), "a folded symbol table"),
+    "open symbol table": (
+        replace("<details><summary>The symbols", "<div><summary>The symbols"),
+        "a folded symbol table",
+    ),
+    "no sketch": (replace("rb.plots.diagram(", "print("), "a drawn sketch"),
+    "sketch of letters": (
+        lambda nb: nb.cells[0].update(source=nb.cells[0].source + "\n```\n +--+\n```\n"),
+        "not made of letters",
+    ),
+    "nothing to see first": (
+        lambda nb: first(nb, figures).update(outputs=[]),
+        "a picture or a panel stands above",
+    ),
+    "nothing to guess": (
+        lambda nb: first(nb, lambda c: ANSWER in tags(c)).update(source="x = ..."),
+        "a guess to write down",
+    ),
+    "guess not checked": (
+        replace('rb.check("99.guess"', 'rb.check("99.1"'),
+        "the guess is checked",
+    ),
+    "talk of tests": (
+        lambda nb: nb.cells[0].update(source=nb.cells[0].source + " Pinned by test_modes."),
+        "no part of a lesson",
+    ),
+    "no cell to answer in": (
+        replace("answer_99_2 = [..., ...]", "x = 2"),
+        "with three dots to replace",
+    ),
+    "no check": (replace('rb.check("99.2"', 'rb.check("99.3"'), 'rb.check("99.2", ...)'),
+    "solution without code": (
+        replace("```python\nanswer_99_1", "```\nanswer_99_1"),
+        "block of Python",
+    ),
+    "solution in the open": (
+        replace("<details><summary>Solution", "Look:\n<details><summary>Solution"),
+        "a text cell of its own",
+    ),
+    "assert in the exercises": (
+        replace("answer_99_1 = ...", "assert True\nanswer_99_1 = ...", "code"),
+        "gives the solution away",
+    ),
     "no equation number": (
         lambda nb: [c.update(source=c.source.replace(r"\tag{", "(")) for c in nb.cells],
         "numbered",
@@ -528,7 +606,7 @@ BREAKING = {
         OPEN,
     ),
     "nothing checked": (
-        lambda nb: [c.update(source=c.source.replace(f"# {MARKED}\n", "")) for c in nb.cells],
+        lambda nb: [c.metadata.update(tags=[]) for c in nb.cells if "difference" in c.source],
         CHECK,
     ),
     "panel without figure": (panel_first, "a static figure stands before the panel"),
@@ -540,12 +618,12 @@ BREAKING = {
     "no text before code": (drop_text_before_code, "a text cell stands before it"),
     "long cell": (lambda nb: first(nb, is_code).update(source="x = 1\n" * 16), "16 lines"),
     "empty cell": (
-        lambda nb: first(nb, is_code).update(source="# NBVAL_CHECK_OUTPUT\n"),
+        lambda nb: first(nb, is_code).update(source="\n"),
         "is empty",
     ),
     "hidden output": (
-        lambda nb: first(nb, is_code).update(source="# NBVAL_SKIP\nx = 1"),
-        "NBVAL_SKIP",
+        lambda nb: first(nb, is_code).metadata.update(tags=["nbval-skip"]),
+        "nbval-skip hides",
     ),
     "too much code": (lambda nb: nb.cells.extend(copy.deepcopy(nb.cells) * 3), "lines of code"),
     "second import": (replace("print(", "import os\nprint(", "code"), "one cell imports"),
@@ -569,10 +647,10 @@ BREAKING = {
         output(output_type="display_data", data={WIDGET + "view+json": {}}),
         "no stored widget view",
     ),
-    "unmarked print": (stream("hello\n"), "prints: mark it"),
+    "unmarked print": (stream("hello\n"), "prints: tag it"),
     "silent mark": (lambda nb: first(nb, prints).update(outputs=[]), "marked but prints nothing"),
     "double mark": (
-        replace(f"# {MARKED}", f"# {MARKED}\n# not compared: why", "code"),
+        lambda nb: first(nb, prints).metadata.update(tags=[MARKED, EXEMPT + "because of this"]),
         "marked both",
     ),
     "error": (output(output_type="error", ename="E", evalue="", traceback=[]), "no stored error"),

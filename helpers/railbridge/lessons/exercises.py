@@ -157,10 +157,11 @@ class Exercise:
 
     @property
     def variable(self) -> str:
-        """The name that its answer bears in the notebook."""
+        """The name that its answer bears in the notebook: ``answer_1_2``, ``guess_1``."""
         if isinstance(self.asks, Written):
             return self.asks.function
-        return "answer_" + self.name.replace(".", "_")
+        number, _, place = self.name.partition(".")
+        return f"guess_{number}" if place == "guess" else f"answer_{number}_{place}"
 
     def reply(self, given: Any) -> Reply:
         """Return what is said of an answer, with what is added to it."""
@@ -182,6 +183,8 @@ def exercises() -> dict[str, Exercise]:
 def _exercise(name: str, table: dict[str, Any]) -> Exercise:
     (key,) = KINDS.keys() & table.keys()
     added = {k: table.pop(k) for k in ("right", "hint", "marks") if k in table}
+    if name.endswith(".guess"):
+        added["marks"] = 0
     for slips in ("numbers", "names"):
         if slips in table:
             table[slips] = tuple(table[slips])

@@ -75,8 +75,14 @@ class Verdict:
         """Whether all of it is right."""
         return self.reply.right
 
+    @property
+    def title(self) -> str:
+        """What it is about: ``Exercise 1.2``, ``Guess 1``."""
+        number, _, place = self.exercise.partition(".")
+        return f"Guess {number}" if place == "guess" else f"Exercise {self.exercise}"
+
     def __repr__(self) -> str:
-        return f"Exercise {self.exercise}: {self.reply.says}"
+        return f"{self.title}: {self.reply.says}"
 
     def _repr_html_(self) -> str:
         kind = "right" if self.right else "wrong" if self.reply.given else "open"
@@ -84,7 +90,7 @@ class Verdict:
         # Colours that keep their contrast on a light and on a dark page.
         colour = {"right": "#1a8f4c", "wrong": "#c8601a", "open": "#7a7f87"}[kind]
         style = f"border-left: 5px solid {colour}; padding: 0.3em 0.8em; margin: 0.2em 0"
-        head = f'<b style="color: {colour}">{mark}</b> <b>Exercise {self.exercise}</b>'
+        head = f'<b style="color: {colour}">{mark}</b> <b>{self.title}</b>'
         return (
             f'<div class="rb-verdict" style="{style}">{head}: {html.escape(self.reply.says)}</div>'
         )

@@ -7,6 +7,7 @@ so figures can be composed: give the axes of ``plt.subplots``; the two that move
 """
 
 from .deck import damping, deck_mode, deck_modes, influence_line
+from .diagrams import diagram
 from .forces import car_forces, spectra, spectrum, wheel_force, wheel_forces
 from .motion import animate_crossing, animate_vehicle_mode
 from .response import (
@@ -28,8 +29,8 @@ from .track import frequencies, irregularity, notch, slope, wheel_paths, wheels_
 
 __all__ = [
     "acceleration", "animate_crossing", "animate_vehicle_mode", "assurance", "box_section",
-    "car_forces", "convergence", "damping", "deck_mode", "deck_modes", "deviations", "displacement",
-    "frequencies", "influence_line", "irregularity", "iterations", "load_modes", "notch",
+    "car_forces", "convergence", "damping", "deck_mode", "deck_modes", "deviations", "diagram",
+    "displacement", "frequencies", "influence_line", "irregularity", "iterations", "load_modes", "notch",
     "reactions", "section_force", "shell_mode", "shell_modes", "slope", "spectra", "spectrum",
     "train_on_deck", "vehicle", "vehicle_mode", "velocity", "wheel_force", "wheel_forces",
     "wheel_paths", "wheels_on_track",
