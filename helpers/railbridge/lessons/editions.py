@@ -33,13 +33,13 @@ Notebook = dict[str, Any]
 
 ANSWER, CHECK = "answer", "check"
 CHECKED = re.compile(r'rb\.check\("([^"]+)"')
-SOLUTION = re.compile(
-    r"<details>\s*<summary>Solution[^<]*</summary>(.*?)</details>\s*", re.DOTALL
-)
+SOLUTION = re.compile(r"<details>\s*<summary>Solution[^<]*</summary>(.*?)</details>\s*", re.DOTALL)
 BLOCK = re.compile(r"```python\n(.*?)```", re.DOTALL)
 SEEN = re.compile(r"<!-- seen -->\s*(.*?)\s*<!-- /seen -->", re.DOTALL)
 # A caption ends with its paragraph; its first sentence before a capital: not "Eq. 3" nor "14.4 m".
-CAPTION = re.compile(r"\A(\*\*Figure \d+\.\d+\.\*\*\s+.*?[.?!])\s+(?=[A-Z*$])(.*?)(?=\n\s*\n|\Z)", re.DOTALL)
+CAPTION = re.compile(
+    r"\A(\*\*Figure \d+\.\d+\.\*\*\s+.*?[.?!])\s+(?=[A-Z*$])(.*?)(?=\n\s*\n|\Z)", re.DOTALL
+)
 FOLD = "<details><summary>Compare: what we see</summary>\n\n{}\n\n</details>"
 
 
