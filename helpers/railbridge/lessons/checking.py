@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from .exercises import exercise
+from .answer_tables import exercise
 from .replies import Verdict
 
 __all__ = ["WrongAnswer", "check"]

@@ -24,7 +24,7 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from .exercises import Choice, Exercise, exercise
+from .answer_tables import Choice, Exercise, exercise
 
 __all__ = ["EDITIONS", "exercise_of", "source", "student", "teacher", "without_solutions"]
 
