@@ -181,7 +181,7 @@ def _run(each: Submission, seconds: float) -> tuple[dict[str, float], list[str]]
             client.execute(env={**os.environ, "OMP_NUM_THREADS": "1", "NBGRADER_EXECUTION": ""})
         except DeadKernelError:
             return {}, ["its kernel died"]
-    return _read(notebook.cells)
+    return _read(notebook.cells, seconds)
 
 
 _READ = """
@@ -208,11 +208,12 @@ def answers_of(page: str, names: Mapping[str, Any]) -> dict[str, float]:
     }
 
 
-def _read(cells: list[Any]) -> tuple[dict[str, float], list[str]]:
+def _read(cells: list[Any], seconds: float) -> tuple[dict[str, float], list[str]]:
     """Return what the last cell printed, and the first error before it."""
     *own, last = cells
+    slow = {"KeyboardInterrupt": f"it took longer than {seconds:g} s"}
     faults = [
-        f"{out['ename']} in the cell '{source(cell).splitlines()[0][:40]}'"
+        f"{slow.get(out['ename'], out['ename'])} in the cell '{source(cell).splitlines()[0][:40]}'"
         for cell in own
         if cell["cell_type"] == "code" and not CHECKED.search(source(cell))
         for out in cell["outputs"]
