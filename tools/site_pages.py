@@ -1,9 +1,9 @@
 """Pages of the static site, laid out as in the repository so that links between them hold;
 tools/site.py builds it from them.
 
-Notebooks are taken as they are stored, without solutions unless the site is a teacher's. A caption becomes a place that can be linked to, a picture
-gets its caption as text for those who do not see it, and a panel, which needs a running program,
-becomes a sentence.
+Notebooks are taken as they are stored, without solutions unless the site is a teacher's. A caption
+becomes a place that can be linked to, a picture gets its caption as text for those who do not see
+it, and a panel, which needs a running program, becomes a sentence.
 """
 
 import inspect
