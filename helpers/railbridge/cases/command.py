@@ -470,9 +470,8 @@ def _mark(given: argparse.Namespace) -> int:
     for row in rows:
         for remark in row.remarks:
             _tell(f"{row.student}: {remark}")
-    _tell(
-        f"{_count(len(rows), 'student')}, {_count(len(handed_in), 'notebook')}; written to {given.out}"
-    )
+    read = f"{_count(len(rows), 'student')}, {_count(len(handed_in), 'notebook')}"
+    _tell(f"{read}; written to {given.out}")
     return 0
 
 
