@@ -75,7 +75,7 @@ def test_a_teacher_gets_an_answer_in_every_answer_cell(path):
         code, end, after = rest.partition("\n### END SOLUTION")
         assert code.strip() and end and not after
         compile(source(cell), "answer", "exec")
-    assert "<summary>Solution" in text(made)
+    assert "<summary>Solution" not in text(made), "what nbgrader releases holds none"
 
 
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
@@ -101,6 +101,14 @@ def test_nbgrader_finds_where_answers_and_marks_stand(path, make):
         assert ("points" in each) is each["grade"]
     assert not any(each["grade"] for each in known if each["grade_id"].endswith("guess"))
     assert any(each["grade"] for each in known)
+
+
+def test_the_words_of_a_solution_are_comments_of_its_code():
+    (answer,) = [c for c in cells(teacher(read()), "answer") if "answer_99_1" in source(c)]
+    assert source(answer) == (
+        "answer_99_1 = ...  # kg\n### BEGIN SOLUTION\nanswer_99_1 = 4 * mass\n"
+        "# Four times the mass, 4000 kg: 5.03 Hz.\n### END SOLUTION"
+    )
 
 
 def test_the_names_of_the_editions():
