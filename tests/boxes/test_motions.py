@@ -62,7 +62,20 @@ def test_modes_are_named_by_what_moves(motion, kind, name):
     modes = described(TUBE, np.array([3.0]), moving(**motion))
     assert modes.names == (name,) and modes.shares[kind][0] > 0.49
     assert sum(modes.shares[k][0] for k in KINDS) == pytest.approx(1.0)
-    assert modes.to_frame()["frequency (Hz)"].tolist() == [3.0]
+
+
+def test_the_table_of_modes_gives_shares_of_energy_in_percent():
+    vectors = np.concatenate([moving(**RIGID[2]), moving(x=1.0, z=1.0)], axis=2)
+    frame = described(TUBE, np.array([3.0, 4.5]), vectors).to_frame()
+    assert frame.index.name == "mode" and frame.index.tolist() == [1, 2]
+    shares = [f"{kind} (%)" for kind in KINDS]
+    assert list(frame.columns) == ["frequency (Hz)", "name", "most local in", *shares]
+    assert frame["frequency (Hz)"].tolist() == [3.0, 4.5]
+    assert frame["name"].tolist() == ["vertical bending 1", "axial-bending 1"]
+    assert set(frame["most local in"]) <= set(PARTS)
+    assert frame[shares].to_numpy() == pytest.approx(
+        np.array([[100.0, 0.0, 0.0, 0.0, 0.0], [50.0, 0.0, 0.0, 50.0, 0.0]]), abs=1e-9
+    )
 
 
 def test_names_are_numbered_within_their_kind_and_mirrors_are_told():
