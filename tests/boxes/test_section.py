@@ -96,6 +96,22 @@ def test_touching_itself_is_crossing():
         refuse_crossing("outline", np.array([(0, 0), (2, 0), (2, 1), (1, 0), (0, 1)], dtype=float))
 
 
+CHANNEL = [(0, 0), (5, 0), (5, 1), (1, 1), (1, 9), (5, 9), (5, 10), (0, 10)]
+# The upper flange turned down through the lower one.
+FOLDED = [(0, 0), (5, 0), (5, 1), (1, 1), (1, 9), (3, 9), (3, -1), (0, 10)]
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("first", range(8))
+def test_corners_may_go_round_either_way_from_any_of_them(way, first):
+    turned = [
+        np.roll(np.array(line, dtype=float)[::way], first, axis=0) for line in (CHANNEL, FOLDED)
+    ]
+    refuse_crossing("outline", turned[0])
+    with pytest.raises(InputError, match="the edges that start at these corners cross"):
+        refuse_crossing("outline", turned[1])
+
+
 def test_missing_library_names_the_extra(monkeypatch):
     import sys
 
