@@ -115,6 +115,42 @@ def test_table_shows_shell_and_beam(fit):
     assert frequency == pytest.approx(fit.frequencies_hz[0], rel=0.05) and likeness > 0.95
 
 
+def test_the_table_sets_each_mode_beside_the_printed_one():
+    printed = np.array(published.TABLE2_DECK)
+    names = tuple(f"mode {i}" for i in range(15))
+    torsion_third = "torsion third, second vertical fourth"
+    solved = printed * np.repeat([1.1, 0.8], [10, 5])
+    made = candidates.Fit(middle(), 0, torsion_third, solved, names, 12e3)
+    assert made.rms() == pytest.approx(10.0)
+    assert made.rms(15) == pytest.approx(np.sqrt((10 * 10.0**2 + 5 * 20.0**2) / 15))
+    frame = ident.table(made)
+    columns = ["printed (Hz)", "shell (Hz)", "difference (%)", "mode of the shell"]
+    assert list(frame.columns) == columns
+    assert frame.index.name == "mode" and frame.index.tolist() == list(range(1, 16))
+    assert frame["printed (Hz)"].tolist() == printed.tolist()
+    assert frame["shell (Hz)"].tolist() == solved.tolist()
+    assert frame["difference (%)"].tolist() == pytest.approx([10.0] * 10 + [-20.0] * 5)
+    assert frame["mode of the shell"].tolist() == list(names)
+    beam = {"torsion 1": (15.2, 0.9), "vertical 2": (13.5, 0.8)}
+    frame = ident.table(made, beam)
+    assert list(frame.columns) == [*columns, "beam (Hz)", "likeness of shell and beam"]
+    known = frame[["beam (Hz)", "likeness of shell and beam"]].dropna()
+    assert known.index.tolist() == [3, 4]
+    assert known.to_numpy().tolist() == [[15.2, 0.9], [13.5, 0.8]]
+
+
+@pytest.mark.parametrize(
+    ("unit", "value", "written"),
+    [
+        ("m", 0.25049, 0.25), ("Pa", 34.26e9, 34.3e9), ("kg/m", 700.4, 700.0), ("-", 0.8756, 0.876),
+        ("N/m", 9.876, 9.88), ("m", -1e-5, 0.0),
+    ],
+)  # fmt: skip
+def test_dimensions_are_rounded_as_in_a_drawing(unit, value, written):
+    found = candidates.Unknown("x", 0.0, 1.0, unit, "why").rounded(value)
+    assert str(found) == str(written)
+
+
 def test_missing_result_names_the_command(monkeypatch, tmp_path):
     monkeypatch.setenv("RAILBRIDGE_DATA", str(tmp_path))
     with pytest.raises(InputError, match="make identify"):
