@@ -230,7 +230,7 @@ SLIPS = [
     axles("mm", [0.0, 3000.0, 14000.0, 17000.0], "mm"),
     axles("cm", [0.0, 300.0, 1400.0, 1700.0], "cm"),
     axles("km", [0.0, 0.003, 0.014, 0.017], "km"),
-    axles("a centimetre apart", [0.0, 0.03, 14.0, 14.03], "decimal point"),
+    axles("a centimetre apart", [0.0, 0.03, 14.0, 14.03], "hundred times"),
     axles("2 500 m apart", [0.0, 2500.0], "mm"),
     axles("one in mm", [0.0, 3.0, 14.0, 17000.0], "mm"),
     # vehicles
