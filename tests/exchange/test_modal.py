@@ -120,6 +120,20 @@ def test_too_few_modes_of_a_viaduct_are_remarked(tmp_path):
     assert "other span" in str(remark) or "m: too few" in str(remark)
 
 
+@pytest.mark.parametrize(
+    ("modes", "others"), [(1, ", nor in 2 other spans"), (2, ", nor in 1 other span"), (3, "")]
+)
+def test_spans_that_stand_still_are_counted(tmp_path, modes, others):
+    """The longest span moves first, so each mode leaves one span less."""
+    beam = rb.Beam("four", (30.0, 27.0, 25.0, 23.0), 36e3, 2.5e11, continuous=False)
+    (remark,) = rb.deck(rb.exchange.export_modes(beam.deck(modes, 0.02), tmp_path / "m")).remarks
+    start, end = np.cumsum([0.0, 30.0, 27.0, 25.0, 23.0])[modes : modes + 2]
+    assert str(remark) == (
+        f"modes move nothing up and down from x = {start:g} to {end:g} m{others}: "
+        "too few modes were written."
+    )
+
+
 def test_modes_that_move_nothing_up_and_down_are_remarked(tmp_path):
     sideways = rb.Beam("deck", (30.0,), 36e3, 2.5e11, 5e10).deck(2, 0.02)
     only = dataclasses.replace(
