@@ -69,6 +69,22 @@ def _first(shapes, count):
     return dataclasses.replace(shapes, coefficients=shapes.coefficients[:, :, :count])
 
 
+def test_nodes_too_few_for_the_waves_of_a_mode_are_warned_of():
+    """Without rotations only displacements tell the shape: two nodes a half wave do not do."""
+    model = dataclasses.replace(read(EXAMPLE), rotations=(False, False, False))
+    with pytest.warns(UserWarning) as seen:
+        deck_from_modes(model, model.nodes.line({"nodes": range(1, 26, 4)}))
+    assert [str(warning.message) for warning in seen] == [
+        "modes: the 7 nodes of the rail are few for uz of mode 9, which changes sign 3 times. "
+        "Use a finer line, fewer modes, or write rotations too."
+    ]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        deck_from_modes(model, model.nodes.line({"nodes": range(1, 26, 3)}))
+        with_rotations = read(EXAMPLE)
+        deck_from_modes(with_rotations, with_rotations.nodes.line({"nodes": range(1, 26, 4)}))
+
+
 def test_masses_show_how_orthogonal_the_modes_are():
     found = read(EXAMPLE).orthogonality()
     assert found.known_masses and found.worst < 1e-8
