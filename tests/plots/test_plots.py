@@ -677,6 +677,56 @@ def test_a_train_at_rest_stands_where_it_is_said_to(run):
         assert [text.get_text() for text in ax.texts] == ["viaduct36, 36 m"]
 
 
+def test_a_box_is_drawn_with_its_own_dimensions_and_left_is_left():
+    own = replace(box(), root_thickness=0.31, edge_thickness=0.18, bottom_spacing=4.4)
+    ax = plots.box_section(own, box().section)
+    shown = [text.get_text() for text in ax.texts if text.get_text()]
+    assert shown == [
+        "left track\ny = 2.4 m", "right track\ny = -2.4 m", "9.60 m", "5.00 m", "4.40 m", "2.00 m",
+        "0.18", "0.31", "0.25", "0.20", "0.35",
+    ]  # fmt: skip
+    left, right = ax.get_xlim()
+    assert left > 4.8 and right < -4.8, "seen along the track: the left track stands on the left"
+    drawn = {line.get_gid(): line.get_xydata() for line in ax.lines}
+    assert drawn["centroid"][0] == pytest.approx(box().section.centroid)
+    assert drawn["shear centre"][0] == pytest.approx(box().section.shear_centre)
+    for side, y in (("left", 2.4), ("right", -2.4)):
+        assert drawn[f"rails {side}"][:, 0].mean() == pytest.approx(y)
+        assert np.ptp(drawn[f"rails {side}"][:, 0]) == pytest.approx(1.435)
+
+
+def test_a_mode_of_plates_says_which_and_how_both_sides_move():
+    shell, _ = shell_and_modes()
+    modes = shell.modes(10)
+    for number, name in enumerate(modes.names, start=1):
+        title = f"{number}: {name}, {modes.frequencies_hz[number - 1]:.2f} Hz"
+        if name.startswith("local"):
+            alike = "alike" if modes.symmetric[number - 1] else "opposite"
+            title += f", {modes.parts[number - 1]}, left and right {alike}"
+        if number in (1, 8, 10):
+            assert plots.shell_mode(shell, modes, number).get_title(loc="left") == title
+    assert modes.symmetric[7] != modes.symmetric[9]
+    ax = plots.shell_mode(shell, modes, 1, scale=0.5)
+    assert ax.get_xlabel() == "length 36.6 (m), motion drawn up to 0.5 (m)"
+    for wrong in ({"mode": 11}, {"mode": 1, "scale": 0.0}):
+        with pytest.raises(rb.InputError, match=f"^{list(wrong)[-1]} = "):
+            plots.shell_mode(shell, modes, **wrong)
+
+
+def test_likeness_stands_in_the_row_and_column_of_its_modes():
+    criterion = [[0.98, 0.04, 0.06], [0.02, 0.75, 0.5]]
+    ax = plots.assurance(criterion, ("a", "b"), ("d", "e", "f"), what=("box", "bar"))
+    shown = {text.get_position(): text.get_text() for text in ax.texts}
+    assert shown == {(0, 0): "0.98", (2, 0): "0.06", (1, 1): "0.75", (2, 1): "0.50"}
+    assert [label.get_text() for label in ax.get_xticklabels()] == ["d", "e", "f"]
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["a", "b"]
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("mode of the bar (-)", "mode of the box")
+    with pytest.raises(
+        rb.InputError, match=r"^criterion = \(2, 3\): must have a row and a column "
+    ):
+        plots.assurance(criterion, ("a", "b", "c"), ("d", "e", "f"))
+
+
 def test_iterations_are_drawn_under_their_own_numbers(run):
     upper, lower = plots.iterations(run, "displacement_z", (0, 1, 4), x=18.0)
     values = {i: 1e3 * run.at(i).displacement(18.0)["displacement_z"] for i in (0, 1, 4)}
