@@ -151,6 +151,60 @@ def test_dimensions_are_rounded_as_in_a_drawing(unit, value, written):
     assert str(found) == str(written)
 
 
+def made(hypothesis="as ordered", factor=1.0, tail=1.0):
+    """A fit whose first ten frequencies are a factor off the printed ones, the others another."""
+    printed = np.array(published.TABLE2_DECK)
+    frequencies = printed * np.where(np.arange(15) < 10, factor, tail)
+    names = tuple(f"mode {i}" for i in range(15))
+    return candidates.Fit({"depth": 2.0}, 0, hypothesis, frequencies, names, 11234.56)
+
+
+def test_a_fit_tells_how_far_it_is_off():
+    fit = made(factor=1.02, tail=0.96)
+    assert fit.differences == pytest.approx([2.0] * 10 + [-4.0] * 5)
+    assert fit.rms() == pytest.approx(2.0)
+    assert fit.rms(15) == pytest.approx(np.sqrt((10 * 4.0 + 5 * 16.0) / 15))
+    kept = fit.to_dict()
+    assert kept["rms_first_ten_percent"] == 2.0 and kept["mass"] == 11234.6
+    assert kept["rms_all_percent"] == pytest.approx(2.828, abs=1e-3)
+    assert kept["frequencies_hz"] == pytest.approx(fit.frequencies_hz, abs=5e-5)
+
+
+@pytest.mark.parametrize("hypothesis", candidates.HYPOTHESES)
+def test_the_beam_stands_in_the_row_of_the_printed_mode_it_is_paired_with(hypothesis):
+    fit = made(hypothesis, factor=1.02)
+    beam = {family: (float(i + 1), 0.9 - 0.1 * i) for i, family in enumerate(candidates.FAMILIES)}
+    frame = ident.table(fit, beam)
+    assert list(frame.columns) == [
+        "printed (Hz)", "shell (Hz)", "difference (%)", "mode of the shell", "beam (Hz)",
+        "likeness of shell and beam",
+    ]  # fmt: skip
+    assert list(frame.index) == list(range(1, 16)) and frame.index.name == "mode"
+    places = candidates.HYPOTHESES[hypothesis]
+    for place, (frequency, likeness) in zip(places, beam.values(), strict=True):
+        row = frame.loc[place + 1]
+        assert (row["beam (Hz)"], row["likeness of shell and beam"]) == (frequency, likeness)
+    assert frame["beam (Hz)"].isna().sum() == 10
+    assert frame["printed (Hz)"].tolist() == list(published.TABLE2_DECK)
+    assert frame["shell (Hz)"].tolist() == fit.frequencies_hz.tolist()
+    assert frame["difference (%)"].tolist() == pytest.approx([2.0] * 10 + [0.0] * 5)
+    assert frame["mode of the shell"].tolist() == list(fit.names)
+    assert list(ident.table(fit).columns) == list(frame.columns)[:4]
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "written"),
+    [
+        ("depth", 2.13449, 2.134), ("youngs_modulus", 3.4761e10, 3.48e10),
+        ("track_mass", 2323.4, 2323.0), ("bottom share", 0.87654, 0.877),
+        ("log10 stiffness", 9.8765, 9.88), ("drop", -1e-5, 0.0),
+    ],
+)  # fmt: skip
+def test_a_value_is_written_as_into_a_drawing(name, value, written):
+    unknown = next(u for u in candidates.UNKNOWNS if u.name == name)
+    assert unknown.rounded(value) == written and np.copysign(1.0, unknown.rounded(value)) == 1.0
+
+
 def test_missing_result_names_the_command(monkeypatch, tmp_path):
     monkeypatch.setenv("RAILBRIDGE_DATA", str(tmp_path))
     with pytest.raises(InputError, match="make identify"):
