@@ -172,7 +172,7 @@ def test_mode_titles_say_frequency_and_what_moves():
     assert (
         plots.vehicle_mode(car, 4)[0]
         .get_title(loc="left")
-        .startswith("mode 4: 1.334 Hz, car z\nCar bounces (100 %)")
+        .startswith("mode 4: 1.334 Hz\nCar bounces (100 %)")
     )
     assert "Same frequency as mode 9" in plots.vehicle_mode(car, 8)[0].get_title(
         loc="left"
