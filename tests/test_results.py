@@ -161,3 +161,20 @@ def test_what_is_asked_of_the_deck_has_units_and_a_place(history, units, where):
     assert history.units == units and list(history.values) == list(units)
     assert history.where == where
     assert all(values.shape == RUN.time.shape for values in history.values.values())
+
+
+@pytest.mark.parametrize("wrong", [np.zeros(3), "front", None, 1.5, True])
+def test_what_is_no_number_of_a_wheel_is_refused(wrong):
+    run = rb.paper.run("paper", "condensed", 1)
+    with pytest.raises(rb.InputError, match="^car"):
+        run.wheel_force(wrong, 1)
+    with pytest.raises(rb.InputError, match="^wheel"):
+        run.wheel_force(1, wrong)
+
+
+@pytest.mark.parametrize("wrong", [np.zeros(2), ["displacement_z"], None, 3])
+def test_what_is_no_name_of_a_history_is_refused(wrong):
+    history = rb.paper.run("paper", "condensed", 1).displacement(18.0)
+    for ask in (history.__getitem__, history.extreme, history.extremes):
+        with pytest.raises(rb.InputError, match="no such history"):
+            ask(wrong)
