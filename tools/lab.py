@@ -10,6 +10,7 @@ Any Python >= 3.11 runs this file: where the suite is not installed, it makes th
 """
 
 import argparse
+import os
 import signal
 import subprocess
 import sys
@@ -21,11 +22,9 @@ import bootstrap
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "my-notebooks"
 FIRST = "00_start_here.ipynb"
-# JupyterLab would ask whether to fetch news, in front of the first page, and look for updates.
-QUIET = (
-    "--LabApp.news_url=None",
-    "--LabApp.check_for_updates_class=jupyterlab.handlers.announcements.NeverCheckForUpdate",
-)
+# The folder labconfig says how JupyterLab starts: it does not ask about news on the first page, nor
+# look for updates elsewhere. What a user sets in JupyterLab counts more.
+SETTINGS = Path(__file__).resolve().parent
 
 
 def copies(folder):
@@ -44,6 +43,8 @@ def open_jupyterlab(options):
     """In this very process: who stops it stops the server."""
     from jupyterlab.labapp import main as jupyterlab
 
+    others = os.environ.get("JUPYTER_CONFIG_PATH")
+    os.environ["JUPYTER_CONFIG_PATH"] = os.pathsep.join(filter(None, [others, str(SETTINGS)]))
     jupyterlab(options)
 
 
@@ -52,8 +53,8 @@ def in_another_python(python, arguments):
 
     Ctrl+C reaches both, and the other one asks before it ends: this one waits for it.
     """
-    other = subprocess.Popen([str(python), __file__, *arguments])
     signal.signal(signal.SIGINT, lambda *_: None)
+    other = subprocess.Popen([str(python), __file__, *arguments])
     signal.signal(signal.SIGTERM, lambda *_: other.terminate())
     return other.wait()
 
@@ -81,7 +82,7 @@ def main(arguments):
             print("Kept are those you changed or ran. For a new copy, delete it and start again.")
     print("They open in your browser. To end: press Ctrl+C twice in this window.", flush=True)
     open_jupyterlab(
-        [f"--ServerApp.root_dir={root}", f"--LabApp.default_url=/lab/tree/{page}", *QUIET, *others]
+        [f"--ServerApp.root_dir={root}", f"--LabApp.default_url=/lab/tree/{page}", *others]
     )
 
 

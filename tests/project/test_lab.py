@@ -1,14 +1,11 @@
 """`make lab`: JupyterLab opens on copies; the suite's own files stay as they are."""
 
-import json
 import os
-import re
 import subprocess
 import sys
 from contextlib import contextmanager
 from pathlib import Path
 from urllib.error import HTTPError
-from urllib.request import Request, urlopen
 
 import pytest
 from served import Server, answers, port_in, running, wait_until
@@ -76,12 +73,9 @@ def test_what_is_saved_goes_into_the_copy_and_is_kept_by_the_next_start(server, 
 
 def test_nobody_is_asked_about_news_and_nothing_is_fetched(server):
     """The question would stand in front of the first page; an update is the suite's business."""
-    asked = Request(f"{server.url}/lab", headers={"Authorization": f"token {TOKEN}"})
-    with urlopen(asked, timeout=30.0) as reply:
-        page = reply.read().decode()
-    settings = re.search(r'id="jupyter-config-data"[^>]*>(.*?)</script>', page, re.DOTALL)
-    assert json.loads(settings.group(1))["news"] == {"disabled": True}
-    assert server.ask("lab/api/update") == {"notification": None}
+    plugin = server.ask("lab/api/settings/@jupyterlab/apputils-extension:notification")
+    asks = plugin["schema"]["properties"]
+    assert (asks["fetchNews"]["default"], asks["checkForUpdates"]["default"]) == ("false", False)
 
 
 def told(monkeypatch):
