@@ -2,7 +2,7 @@
 
     python tools/lab.py                    copies in my-notebooks, made or renewed first
     python tools/lab.py --folder course    copies in another folder
-    python tools/lab.py --tracked          the suite's own notebooks, for who changes the suite
+    python tools/lab.py --tracked          the suite's own notebooks, to change them
     python tools/lab.py --no-browser       what is not ours goes on to JupyterLab
 
 Any Python >= 3.11 runs this file: where the suite is not installed, it makes the environment

@@ -1,7 +1,8 @@
-"""The first page of the README, for who has never used a terminal: its order, its commands, and the
-words that it says one will see."""
+"""The first steps of the README, for those who have never used a terminal: their order, their
+commands, and the words that they say one will see."""
 
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -81,3 +82,15 @@ def test_test_command_stands_as_it_did():
     """CI takes it from here."""
     start = README[README.index("\n## Start\n") :]
     assert re.search(r"```\nmake lab .*\nmake test .*\n```", start)
+
+
+def test_cleaning_keeps_the_notebooks(tmp_path):
+    for name in (".venv/lib/x.py", "my-notebooks/00_start_here.ipynb", "build/site/index.html"):
+        (tmp_path / name).parent.mkdir(parents=True)
+        (tmp_path / name).touch()
+    (tmp_path / "tools").mkdir()
+    shutil.copy(ROOT / "tools" / "clean.py", tmp_path / "tools")
+    subprocess.run([sys.executable, tmp_path / "tools" / "clean.py"], check=True)
+    assert (tmp_path / "my-notebooks" / "00_start_here.ipynb").is_file()
+    assert not (tmp_path / ".venv").exists()
+    assert "deletes `.venv` and keeps your notebooks" in STEPS

@@ -1,4 +1,4 @@
-"""The page for who runs a hub, and the image it names: what they say exists and fits together."""
+"""The page for those who run a hub, and its image: what they say exists and fits together."""
 
 import importlib
 import os
