@@ -90,7 +90,7 @@ def test_image_and_settings_speak_of_the_same(settings):
     (folders,) = settings.DockerSpawner.volumes.values()
     assert ("WORKDIR", folders) in lines and ("CMD", '["start-railbridge"]') in lines
     assert settings.Spawner.cmd == ["start-railbridge"]
-    assert f"railbridge copy-notebooks {'~'}/my-notebooks" in PAGE
+    assert f"railbridge copy-notebooks {'~'}/my-notebooks --student" in PAGE
     copied = settings.Spawner.default_url.removeprefix("/lab/tree/my-notebooks/")
     assert copied in lessons.contents()
     shared = settings.DockerSpawner.read_only_volumes
@@ -146,7 +146,7 @@ def test_server_starts_with_copies_made_or_without(tmp_path, writable):
 
 def test_both_commands_for_marking_are_named_once():
     part = re.search(r"## Collecting and marking\n(.*?)\n## ", PAGE, re.DOTALL).group(1)
-    for words in ("copy-notebooks --student", "copy-notebooks --teacher", "railbridge mark DIR"):
+    for words in ("copy-notebooks DIR --student", "copy-notebooks DIR --teacher", "railbridge mark DIR"):
         assert part.count(words) == 1
 
 

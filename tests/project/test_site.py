@@ -105,10 +105,10 @@ def test_every_stored_caption_finds_its_picture(path):
         for number in re.findall(r"^\*\*Figure (\d+\.\d+)\.\*\*", cell.source, re.MULTILINE)
     ]
     found = [figure.number for figure in site_pages.figures(notebook, path.stem)]
-    # An animation and a drawing have no picture to make small.
-    moving = [n for n in written if n not in found]
+    # An animation or a diagram has no picture to make small.
+    other = [n for n in written if n not in found]
     cells = {i: site_pages.caption_below(notebook.cells, i) for i in range(len(notebook.cells))}
-    for number in moving:
+    for number in other:
         above = next(
             notebook.cells[i]
             for i, caption in cells.items()
