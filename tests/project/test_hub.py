@@ -146,7 +146,11 @@ def test_server_starts_with_copies_made_or_without(tmp_path, writable):
 
 def test_both_commands_for_marking_are_named_once():
     part = re.search(r"## Collecting and marking\n(.*?)\n## ", PAGE, re.DOTALL).group(1)
-    for words in ("copy-notebooks DIR --student", "copy-notebooks DIR --teacher", "railbridge mark DIR"):
+    for words in (
+        "copy-notebooks DIR --student",
+        "copy-notebooks DIR --teacher",
+        "railbridge mark DIR",
+    ):
         assert part.count(words) == 1
 
 
