@@ -1,9 +1,9 @@
 """Pages of the static site, laid out as in the repository so that links between them hold;
 tools/site.py builds it from them.
 
-Notebooks are taken as they are stored. A caption becomes a place that can be linked to, a picture
-gets its caption as text for those who do not see it, and a panel, which needs a running program,
-becomes a sentence.
+Notebooks are taken as they are stored, without solutions unless the site is a teacher's. A caption
+becomes a place that can be linked to, a picture gets its caption as text for those who do not see
+it, and a panel, which needs a running program, becomes a sentence.
 """
 
 import inspect
@@ -19,10 +19,12 @@ import nbformat
 from PIL import Image
 
 from notebooks import METADATA, PANEL_TEXT
+from railbridge.lessons import editions
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = ROOT / "build" / "site-pages"
 DOCUMENTS = ("CONTRIBUTING.md", "CHANGELOG.md")
+TEACHING = "teaching.md"  # answers stand there
 THUMBNAIL = (640, 480)  # px, shown at half of that
 # Not "failed to load": a page on disk has no program behind it that a panel could ask.
 STILL = f'<p class="rb-still">{PANEL_TEXT}</p>'
@@ -268,14 +270,28 @@ def directive(thing):
     return "autofunction" if callable(thing) else "autodata"
 
 
-def lay_out(pages=PAGES):
-    """Write all pages of the site below one folder, as in the repository."""
+def without_teaching(markdown):
+    """Links to the teacher's page as plain text."""
+    return re.sub(rf"\[([^\]]*)\]\([^)]*{TEACHING}[^)]*\)", r"\1", markdown)
+
+
+def kept(path, teacher):
+    """The stored notebook, without solutions unless they are asked for."""
+    notebook = nbformat.read(path, as_version=4)
+    return notebook if teacher else nbformat.from_dict(editions.without_solutions(notebook))
+
+
+def lay_out(pages=PAGES, teacher=False):
+    """Write all pages of the site below one folder, as in the repository.
+
+    A teacher's also has solutions, the teacher's page and its sheets.
+    """
     shutil.rmtree(pages, ignore_errors=True)
     for folder in ("notebooks", "gallery", "api"):
         (pages / folder).mkdir(parents=True)
     shown, titles = [], {}
     for path in sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb")):
-        notebook = nbformat.read(path, as_version=4)
+        notebook = kept(path, teacher)
         titles[path.stem] = notebook.cells[0].source.splitlines()[0].lstrip("# ")
         shown += figures(notebook, path.stem)
         nbformat.write(page_of(notebook, path.stem), pages / "notebooks" / path.name)
@@ -293,8 +309,12 @@ def lay_out(pages=PAGES):
         )
     for name in (*DOCUMENTS, "LICENSE", "LICENSE-notebooks.md", "CITATION.cff"):
         shutil.copy(ROOT / name, pages)
+    if not teacher:
+        (pages / "docs" / TEACHING).unlink()
+    fitted = (lambda text: text) if teacher else without_teaching
     for path in (*pages.glob("*.md"), *pages.glob("docs/*.md")):
-        path.write_text(homeward(path.read_text(encoding="utf-8")), encoding="utf-8")
+        text = path.read_text(encoding="utf-8")
+        path.write_text(fitted(homeward(text)), encoding="utf-8")
     documents = sorted(
         path.relative_to(pages).with_suffix("").as_posix() for path in (pages / "docs").glob("*.md")
     )
@@ -306,4 +326,4 @@ def lay_out(pages=PAGES):
         ),
     }
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    (pages / "index.md").write_text(readme + INDEX_TAIL % parts, encoding="utf-8")
+    (pages / "index.md").write_text(fitted(readme) + INDEX_TAIL % parts, encoding="utf-8")

@@ -42,6 +42,12 @@ RESULT = """path => {
     return model.executionCount !== null && model.outputs.length
         && {source: model.sharedModel.getSource(), outputs: model.outputs.toJSON()};
 }"""
+# The cell that is the current one was run.
+DONE = """path => {
+    const {model} = window.rbNotebook(path).content.activeCell;
+    return model.executionCount !== null
+        && window.rbNotebook(path).sessionContext.session.kernel.status === 'idle';
+}"""
 STATE = """path => `${window.rbNotebook(path)?.sessionContext.kernelDisplayStatus}, cells run: `
     + window.rbCode(path).map(model => model.executionCount ?? '-').join(' ')"""
 
@@ -106,6 +112,28 @@ class NotebookOnPage:
         write()
         self.page.keyboard.press("Control+Enter")
         return self._wait(RESULT)
+
+    def answer(self, variable, code):
+        """Write an answer into its cell by keyboard, run it and the check below.
+
+        Returns
+        -------
+        str
+            What the check shows.
+        """
+        cell = self.page.locator(".jp-CodeCell").filter(has_text=f"{variable} = ").first
+        cell.locator(".cm-content").click()
+        self.page.keyboard.press("Control+A")
+        self.page.keyboard.insert_text(f"{variable} = {code}")
+        self.page.keyboard.press("Control+Enter")
+        self._wait(DONE)
+        for key in ("Escape", "ArrowDown", "Control+Enter"):
+            self.page.keyboard.press(key)
+        asked = f"check cell of {variable}"
+        assert variable in self._wait(RESULT)["source"], asked
+        self._wait(DONE)
+        shown = self.page.locator(".jp-CodeCell.jp-mod-active .rb-verdict")
+        return shown.inner_text()
 
     def complaints(self):
         """What cells raised or warned, and what panels refuse."""

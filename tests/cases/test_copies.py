@@ -41,7 +41,7 @@ def newer(monkeypatch):
     """The suite's next edition: one word of one notebook has changed."""
     now = lessons.contents()
     now[NOTEBOOK] = now[NOTEBOOK].replace(b"How hard", b"How very hard")
-    monkeypatch.setattr(lessons, "contents", lambda: now)
+    monkeypatch.setattr(lessons, "contents", lambda edition="reader": now)
     return now
 
 
@@ -245,3 +245,38 @@ def test_an_installation_without_notebooks_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr(lessons, "suite_root", lambda: tmp_path)
     with pytest.raises(rb.InputError, match="are missing from this installation"):
         lessons.contents()
+
+
+# ---- editions
+
+
+def test_a_student_gets_neither_solutions_nor_the_teachers_page(tmp_path, capsys):
+    assert command(capsys, tmp_path / "class", "--student")[0] == 0
+    names = {p.relative_to(tmp_path / "class").as_posix() for p in (tmp_path / "class").rglob("*")}
+    assert "docs/teaching.md" not in names and "sheets" not in names
+    for path in (tmp_path / "class").glob("*.ipynb"):
+        text = path.read_text(encoding="utf-8")
+        assert "<summary>Solution" not in text and '"output_type"' not in text
+        assert "teaching.md)" not in text, "no link to what a student does not get"
+
+
+def test_a_teacher_gets_the_page_and_sheets_to_print(tmp_path, capsys):
+    assert command(capsys, tmp_path / "mine", "--teacher")[0] == 0
+    assert (tmp_path / "mine" / "docs" / "teaching.md").exists()
+    sheets = sorted(path.name for path in (tmp_path / "mine" / "sheets").iterdir())
+    assert sheets == ["guess_sheet.html", "numbers_A.html", "numbers_B.html"]
+
+
+def test_another_edition_renews_what_nobody_edited(tmp_path, capsys):
+    assert command(capsys, tmp_path / "mine", "--teacher")[0] == 0
+    edited = tmp_path / "mine" / NOTEBOOK
+    edited.write_bytes(b"my work")
+    code, out, _ = command(capsys, tmp_path / "mine", "--student")
+    assert code == 0 and f"kept      {NOTEBOOK}" in out
+    assert edited.read_bytes() == b"my work"
+
+
+def test_a_copy_is_of_one_edition(tmp_path, capsys):
+    with pytest.raises(SystemExit) as stop:
+        command(capsys, tmp_path / "mine", "--teacher", "--student")
+    assert stop.value.code == 2

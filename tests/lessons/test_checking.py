@@ -22,7 +22,8 @@ def test_an_unknown_exercise_is_refused():
 @pytest.mark.parametrize("mode", ["autograde", "validate"])
 def test_a_grading_program_sees_a_wrong_answer_fail(monkeypatch, mode):
     monkeypatch.setenv("NBGRADER_EXECUTION", mode)
-    assert rb.check("1.1", 1.337).right
+    assert rb.check("1.1", 1.337) == 1.0
+    assert rb.check("99.2", [2.0e6, 1.0]) == 0.5
     for value in (2.0, ..., "1.337"):
         with pytest.raises(WrongAnswer, match=r"Exercise 1\.1"):
             rb.check("1.1", value)

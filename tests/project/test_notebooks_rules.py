@@ -53,6 +53,8 @@ class Page:
 # one with two programs.
 PAGES = {
     "00": Page((GOALS, EXPLORE, FOUND, REFERENCES), (200, 1200), (5, 80), (), ("You need", "Time")),
+    # The loop twice: once in fifteen lines without the suite.
+    "06": Page(words=(500, 2000), code_lines=(40, 180)),
     "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3000), (20, 260), (), ("You need", "Time")),
     "09": Page((GOALS, CHECK, EXERCISES, FOUND, REFERENCES, SYMBOLS), (500, 3000), (20, 280)),
     # The other program that the page needs is written out on it.
@@ -251,7 +253,10 @@ def rules_of_the_sections(notebook, number, page):
         code = joined(filter(is_code, notebook.cells))
         if "rb.plots.diagram(" not in code and "rb.plots.vehicle(" not in code:
             yield "a drawn sketch: rb.plots.diagram or rb.plots.vehicle"
-        if re.search(r"```\n[^`]*(?:--|\|)", joined(filter(is_text, notebook.cells))):
+        blocks = re.findall(
+            r"^```(\w*)\n(.*?)^```", joined(notebook.cells), re.DOTALL | re.MULTILINE
+        )
+        if any(not language and re.search(r"--|\|", block) for language, block in blocks):
             yield "sketches are drawn, not made of letters"
     if THEORY in page.sections and rf"\tag{{{int(number)}." not in joined(sections.get(THEORY, [])):
         yield rf"numbered equations in '{THEORY}': \tag{{{int(number)}.1}}"

@@ -105,7 +105,8 @@ def test_every_stored_caption_finds_its_picture(path):
         for number in re.findall(r"^\*\*Figure (\d+\.\d+)\.\*\*", cell.source, re.MULTILINE)
     ]
     found = [figure.number for figure in site_pages.figures(notebook, path.stem)]
-    moving = [n for n in written if n not in found]  # an animation has no picture to make small
+    # An animation and a drawing have no picture to make small.
+    moving = [n for n in written if n not in found]
     cells = {i: site_pages.caption_below(notebook.cells, i) for i in range(len(notebook.cells))}
     for number in moving:
         above = next(
@@ -113,9 +114,8 @@ def test_every_stored_caption_finds_its_picture(path):
             for i, caption in cells.items()
             if caption and caption.group(1) == number
         )
-        assert any("text/html" in out.get("data", {}) for out in above.outputs), (
-            f"Figure {number} has no picture"
-        )
+        shown = {kind for out in above.outputs for kind in out.get("data", {})}
+        assert shown & {"text/html", "image/svg+xml"}, f"Figure {number} has no picture"
     assert len(set(found)) == len(found)
 
 
@@ -129,3 +129,31 @@ def test_every_public_name_has_its_place():
     assert ".. autoexception:: railbridge.NotConvergedError" in text
     assert ".. autoclass:: railbridge.panels.Panel" in text
     assert all(f":doc:`{name}`" in pages["index"] for name in pages if name != "index")
+
+
+@pytest.fixture(scope="module")
+def sites(tmp_path_factory):
+    """The pages for students and for teachers, laid out."""
+    made = {}
+    for teacher in (False, True):
+        made[teacher] = tmp_path_factory.mktemp("pages") / "site"
+        site_pages.lay_out(made[teacher], teacher)
+    return made
+
+
+def words(folder, *patterns):
+    return "".join(p.read_text(encoding="utf-8") for each in patterns for p in folder.glob(each))
+
+
+def test_the_students_site_has_neither_answers_nor_the_teachers_page(sites):
+    notebooks = words(sites[False], "notebooks/*.ipynb")
+    assert "<summary>Solution" not in notebooks and "<summary>Hint" in notebooks
+    assert not (sites[False] / "docs" / "teaching.md").exists()
+    assert "teaching.md)" not in words(sites[False], "*.md", "docs/*.md", "notebooks/*.ipynb")
+    assert "docs/teaching\n" not in (sites[False] / "index.md").read_text(encoding="utf-8")
+
+
+def test_a_teachers_site_has_both(sites):
+    assert "<summary>Solution" in words(sites[True], "notebooks/*.ipynb")
+    assert (sites[True] / "docs" / "teaching.md").exists()
+    assert "(docs/teaching.md)" in (sites[True] / "index.md").read_text(encoding="utf-8")

@@ -285,15 +285,17 @@ def test_commands_of_the_page_are_known(tmp_path, monkeypatch, capsys):
         for block in re.findall(r"```\n(.*?)```", TEXT, re.DOTALL)
         for line in block.splitlines()
     ]
-    assert shown[0] == "railbridge copy-notebooks course"
-    assert cli.main(shlex.split(shown[0])[1:]) == 0
-    assert Path("course/03_rigid_deck_forces.ipynb").is_file()
-    assert (
-        "open them with: python -m jupyterlab course" in capsys.readouterr().out
-        and "python -m jupyterlab course" in shown
-    )
-    assert "python -m pytest --nbval-lax 03_rigid_deck_forces.ipynb" in shown
-    assert "python -m pytest -q --nbval-lax submissions" in shown
+    assert shown == [
+        "railbridge copy-notebooks course --student",
+        "railbridge copy-notebooks mine --teacher",
+        "railbridge mark submissions --out marks.csv",
+    ]
+    for line in shown[:2]:
+        assert cli.main(shlex.split(line)[1:]) == 0
+        assert Path(line.split()[2], "03_rigid_deck_forces.ipynb").is_file()
+    assert "open them with: python -m jupyterlab course" in capsys.readouterr().out
+    assert "`python -m jupyterlab course`" in TEXT
+    assert Path("mine/sheets/guess_sheet.html").is_file() and not Path("course/sheets").exists()
     Path("course/03_rigid_deck_forces.ipynb").write_text("edited")
-    assert cli.main(shlex.split("copy-notebooks course --force")) == 0
+    assert cli.main(shlex.split("copy-notebooks course --student --force")) == 0
     assert Path("course/03_rigid_deck_forces.edited-1.ipynb").read_text() == "edited"

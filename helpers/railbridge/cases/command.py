@@ -23,7 +23,8 @@ from typing import Any, NoReturn, TextIO
 import numpy as np
 
 from ..crossing import NotConvergedError
-from ..errors import InputError, InputWarning, Remark, printable
+from ..errors import InputError, InputWarning, Remark, integer, printable
+from ..lessons import exercises, marking
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
@@ -52,6 +53,8 @@ examples:
   railbridge list                            vehicles, decks and cases that are shipped
   railbridge copy-notebooks my-course        the lessons as copies of your own; done again, it
                                              renews those that are not edited
+  railbridge copy-notebooks class --student  what to hand out: no outputs, no solutions
+  railbridge mark handed-in --out marks.csv  run what a class handed in: a row per student
   railbridge schema > case.schema.json       for editors that complete and check TOML files
 
 results (in the folder of --out; files of these names in it are replaced):
@@ -217,6 +220,40 @@ def _parser() -> argparse.ArgumentParser:
         "--force",
         action="store_true",
         help="replace edited copies too; yours is kept beside as NAME.edited-1",
+    )
+    editions = copying.add_mutually_exclusive_group()
+    editions.add_argument(
+        "--student",
+        action="store_const",
+        dest="edition",
+        const="student",
+        help="without outputs and solutions; what figures show is folded",
+    )
+    editions.add_argument(
+        "--teacher",
+        action="store_const",
+        dest="edition",
+        const="teacher",
+        help="with every answer in its place, the teacher's page and sheets to print",
+    )
+    copying.set_defaults(edition="reader")
+    marking = add(
+        "mark",
+        _mark,
+        "run the notebooks of a class and write a table of marks, a row per student",
+        epilog="The notebooks are programs of other people and run with your rights.",
+    )
+    marking.add_argument(
+        "folder", metavar="DIR", help="holds a folder per student with the notebooks in it"
+    )
+    marking.add_argument(
+        "--out", metavar="FILE", required=True, help="the table, a new file that ends in .csv"
+    )
+    marking.add_argument(
+        "--only", metavar="NN", nargs="+", default=[], help="numbers of the notebooks to mark"
+    )
+    marking.add_argument(
+        "--jobs", type=int, default=2, help="how many run at once (default %(default)s)"
     )
     add(
         "schema",
@@ -392,7 +429,7 @@ def _schema(given: argparse.Namespace) -> int:
 def _copy_notebooks(given: argparse.Namespace) -> int:
     folder = Path(given.folder)
     with staging.folder(given.folder, "DIR") as staged:
-        planned = copies.plan(folder, given.force)
+        planned = copies.plan(folder, given.force, given.edition)
         copies.stage(planned, folder, staged.scratch)
         if staged.existed or not staged.become():
             copies.place(planned, folder, staged.scratch)
@@ -414,6 +451,32 @@ def _copy_notebooks(given: argparse.Namespace) -> int:
         )
     _tell(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
     return 0
+
+
+def _mark(given: argparse.Namespace) -> int:
+    jobs = integer("--jobs", given.jobs, least=1, most=64)
+    if Path(given.out).suffix != ".csv":
+        raise InputError("--out", given.out, "must end in .csv")
+    if Path(given.out).exists():
+        remedy = "Choose another name, or move it away"
+        raise InputError("--out", given.out, "exists already and is left alone", remedy)
+    handed_in = marking.submissions(Path(given.folder), given.only)
+    pages = {each.page for each in handed_in}
+    asked = [e for e in exercises().values() if e.name.partition(".")[0] in pages]
+    progress = _Progress(quiet=False)
+    rows = marking.marked(handed_in, jobs, progress=progress)
+    progress.end()
+    _write_new(Path(given.out), marking.table(rows, asked))
+    for row in rows:
+        for remark in row.remarks:
+            _tell(f"{row.student}: {remark}")
+    read = f"{_count(len(rows), 'student')}, {_count(len(handed_in), 'notebook')}"
+    _tell(f"{read}; written to {given.out}")
+    return 0
+
+
+def _count(number: int, thing: str) -> str:
+    return f"{number} {thing}" + "s" * (number != 1)
 
 
 class _Progress:

@@ -18,6 +18,8 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..exchange.reading import read_text
+from ..lessons import sheets
+from ..lessons.editions import EDITIONS
 from . import shelf
 
 __all__ = ["MANIFEST", "Copy", "contents", "place", "plan", "stage"]
@@ -31,6 +33,8 @@ PAGES = (
     "docs/crossing.png",
 )
 """What the notebooks lead to, besides each other and the data files."""
+TEACHING = "docs/teaching.md"
+"""What a teacher gets besides, with the sheets to print that are made of it."""
 
 
 @dataclass(frozen=True)
@@ -65,13 +69,19 @@ def suite_root() -> Path:
     return packaged if packaged.is_dir() else Path(__file__).parents[3]
 
 
-def contents() -> dict[str, bytes]:
+def contents(edition: str = "reader") -> dict[str, bytes]:
     """Return every file that is copied, by its place in the folder.
 
-    Notebooks on top, then what they lead to.
+    Notebooks on top, then what they lead to; a teacher's also with the teacher's page and its
+    sheets.
 
     Links between them are made to fit the new places; links to what is not copied become plain
     text.
+
+    Parameters
+    ----------
+    edition : {"reader", "student", "teacher"}
+        See `lessons.editions`.
     """
     root, data = suite_root(), shelf.data_root()
     sources = {path.name: path for path in sorted((root / "notebooks").glob("[0-9][0-9]_*.ipynb"))}
@@ -79,18 +89,26 @@ def contents() -> dict[str, bytes]:
         raise InputError(
             "notebooks", None, "are missing from this installation", "Install the suite again"
         )
-    sources |= {page: root / page for page in PAGES}
+    pages = (*PAGES, TEACHING) if edition == "teacher" else PAGES
+    sources |= {page: root / page for page in pages}
     sources |= {
         f"data/{p.relative_to(data).as_posix()}": p
         for p in sorted(data.rglob("*.*"))
         if p.is_file()
     }
-    return {name: _fitted(name, path.read_bytes(), set(sources)) for name, path in sources.items()}
+    made = {
+        name: _fitted(name, path.read_bytes(), set(sources), edition)
+        for name, path in sources.items()
+    }
+    if edition == "teacher":
+        printed = sheets.sheets((root / TEACHING).read_text(encoding="utf-8"))
+        made |= {f"sheets/{name}": text.encode("utf-8") for name, text in printed.items()}
+    return made
 
 
-def _fitted(name: str, content: bytes, known: set[str]) -> bytes:
+def _fitted(name: str, content: bytes, known: set[str], edition: str) -> bytes:
     if name.endswith(".ipynb"):
-        notebook = json.loads(content)
+        notebook = EDITIONS[edition](json.loads(content))
         for cell in notebook["cells"]:
             if cell["cell_type"] == "markdown":
                 text = _with_links(f"notebooks/{name}", "".join(cell["source"]), name, known)
@@ -116,7 +134,7 @@ def _with_links(was: str, text: str, now: str, known: set[str]) -> str:
     return re.sub(r"(!?\[[^][]*\])\((?!\w+:)([^()#\s]+)(#[^()\s]*)?\)", mended, text)
 
 
-def plan(folder: Path, force: bool = False) -> list[Copy]:
+def plan(folder: Path, force: bool = False, edition: str = "reader") -> list[Copy]:
     """Say what copying would do to each file of the folder; nothing is written.
 
     Raises
@@ -128,7 +146,7 @@ def plan(folder: Path, force: bool = False) -> list[Copy]:
     _refuse_own(folder)
     known = _recorded(folder)
     result = []
-    for name, content in contents().items():
+    for name, content in contents(edition).items():
         target = folder / name
         if target.is_dir():
             raise InputError(

@@ -240,10 +240,10 @@ def _still(functions: PiecewiseCubic, kept: np.ndarray, supports: Sequence[float
     still = np.flatnonzero((moving < _STILL * largest) & (np.diff(edges) > 1e-6 * edges[-1]))
     if not len(still):
         return []
-    i = still[0]
+    i, others = still[0], len(still) - 1
     text = (
         f"move nothing up and down from x = {edges[i]:g} to {edges[i + 1]:g} m"
-        + f", nor in {len(still) - 1} other spans" * (len(still) > 1)
+        + f", nor in {others} other span{'s' * (others > 1)}" * (others > 0)
         + ": too few modes were written."
     )
     return [ResultWarning("modes", text)]

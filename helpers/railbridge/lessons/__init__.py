@@ -4,8 +4,8 @@
 from the one that is kept; `marking` reads a class's answers into one table.
 """
 
+from .answer_tables import Exercise, exercise, exercises
 from .checking import WrongAnswer, check
-from .exercises import Exercise, exercise, exercises
 from .replies import Verdict
 
 __all__ = ["Exercise", "Verdict", "WrongAnswer", "check", "exercise", "exercises"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from .exercises import exercise
+from .answer_tables import exercise
 from .replies import Verdict
 
 __all__ = ["WrongAnswer", "check"]
@@ -15,7 +15,7 @@ class WrongAnswer(AssertionError):
     """An answer is wrong or missing, and a grading program is reading."""
 
 
-def check(name: str, given: Any = None) -> Verdict:
+def check(name: str, given: Any = None) -> Verdict | float:
     """Say of an answer whether it is right, or what kind of wrong it is.
 
     Nothing is sent anywhere, and the answer is not shown.
@@ -30,17 +30,21 @@ def check(name: str, given: Any = None) -> Verdict:
     Returns
     -------
     Verdict
-        Shown by a notebook below the cell.
+        Shown by a notebook below the cell. While nbgrader marks or validates, the marks earned, as
+        it reads them.
 
     Raises
     ------
     InputError
         There is no such exercise.
     WrongAnswer
-        Only while nbgrader marks or validates, which counts a cell that raises nothing as right.
+        Only while nbgrader marks or validates: nothing of the answer is right.
     """
     asked = exercise(name)
     verdict = Verdict(name, asked.reply(given))
-    if os.environ.get("NBGRADER_EXECUTION") and asked.marks and not verdict.right:
-        raise WrongAnswer(str(verdict))
+    if os.environ.get("NBGRADER_EXECUTION") and asked.marks:
+        if not verdict.reply.score:
+            raise WrongAnswer(str(verdict))
+        print(verdict)
+        return round(asked.marks * verdict.reply.score, 2)
     return verdict

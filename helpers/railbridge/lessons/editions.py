@@ -11,8 +11,9 @@ One notebook is kept, with outputs and folded solutions. In it
   but the first sentence of a caption.
 
 A student's edition has no outputs and no solutions, and folds what is seen: predict, run, compare.
-A teacher's edition has everything, and the answers in place. Both carry what nbgrader needs to
-collect and to mark.
+A teacher's edition has everything, with each solution, code and words, in its answer cell between
+the marks that nbgrader knows; what nbgrader releases of it is then a student's edition, too. Both
+carry what nbgrader needs to collect and to mark.
 
 A notebook here is the JSON object of its file; none is changed in place.
 """
@@ -24,7 +25,7 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from .exercises import Choice, Exercise, exercise
+from .answer_tables import Choice, Exercise, exercise
 
 __all__ = ["EDITIONS", "exercise_of", "source", "student", "teacher", "without_solutions"]
 
@@ -33,13 +34,13 @@ Notebook = dict[str, Any]
 
 ANSWER, CHECK = "answer", "check"
 CHECKED = re.compile(r'rb\.check\("([^"]+)"')
-SOLUTION = re.compile(
-    r"<details>\s*<summary>Solution[^<]*</summary>(.*?)</details>\s*", re.DOTALL
-)
+SOLUTION = re.compile(r"<details>\s*<summary>Solution[^<]*</summary>(.*?)</details>\s*", re.DOTALL)
 BLOCK = re.compile(r"```python\n(.*?)```", re.DOTALL)
 SEEN = re.compile(r"<!-- seen -->\s*(.*?)\s*<!-- /seen -->", re.DOTALL)
 # A caption ends with its paragraph; its first sentence before a capital: not "Eq. 3" nor "14.4 m".
-CAPTION = re.compile(r"\A(\*\*Figure \d+\.\d+\.\*\*\s+.*?[.?!])\s+(?=[A-Z*$])(.*?)(?=\n\s*\n|\Z)", re.DOTALL)
+CAPTION = re.compile(
+    r"\A(\*\*Figure \d+\.\d+\.\*\*\s+.*?[.?!])\s+(?=[A-Z*$])(.*?)(?=\n\s*\n|\Z)", re.DOTALL
+)
 FOLD = "<details><summary>Compare: what we see</summary>\n\n{}\n\n</details>"
 
 
@@ -62,26 +63,23 @@ def exercise_of(cell: Cell) -> Exercise | None:
 
 def student(notebook: Notebook) -> Notebook:
     """Return the edition to hand out."""
-    made = without_solutions(notebook)
+    made = _folded(without_solutions(notebook))
     for cell in made["cells"]:
         if cell["cell_type"] == "code":
             cell.update(outputs=[], execution_count=None)
-        else:
-            _write(cell, _with_folds(source(cell)))
     _mark_for_nbgrader(made)
     return made
 
 
 def teacher(notebook: Notebook) -> Notebook:
-    """Return the edition with every answer in its place."""
-    made = copy.deepcopy(notebook)
-    solutions = _solutions(made)
+    """Return the edition with every solution in its place."""
+    solutions, made = _solutions(notebook), _folded(without_solutions(notebook))
     _mark_for_nbgrader(made)
     for place, check in _answer_cells(made):
         asked, cell = exercise_of(check), made["cells"][place]
-        code = solutions.get(asked.name) or _letter(asked)
+        solution = solutions.get(asked.name) or _letter(asked)
         stub = source(cell).rstrip("\n")
-        _write(cell, f"{stub}\n### BEGIN SOLUTION\n{code.rstrip()}\n### END SOLUTION")
+        _write(cell, f"{stub}\n### BEGIN SOLUTION\n{solution}\n### END SOLUTION")
         for stale in (cell, check):
             stale.update(outputs=[], execution_count=None)
     return made
@@ -114,6 +112,14 @@ def _write(cell: Cell, text: str) -> None:
     cell["source"] = text if isinstance(cell["source"], str) else text.splitlines(keepends=True)
 
 
+def _folded(notebook: Notebook) -> Notebook:
+    """Fold, in place, what gives an observation away."""
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "markdown":
+            _write(cell, _with_folds(source(cell)))
+    return notebook
+
+
 def _with_folds(text: str) -> str:
     """Fold what would give an observation away."""
     caption = CAPTION.match(text)
@@ -139,7 +145,7 @@ def _answer_cells(notebook: Notebook) -> list[tuple[int, Cell]]:
 
 
 def _solutions(notebook: Notebook) -> dict[str, str]:
-    """Return the code of each solution by the exercise that is checked before it."""
+    """Return each solution by the exercise that is checked before it: code, words as comments."""
     found, last = {}, None
     for cell in notebook["cells"]:
         asked = exercise_of(cell)
@@ -147,7 +153,9 @@ def _solutions(notebook: Notebook) -> dict[str, str]:
         fold = SOLUTION.search(source(cell)) if cell["cell_type"] == "markdown" else None
         block = BLOCK.search(fold.group(1)) if fold else None
         if block and last:
-            found[last] = block.group(1)
+            words = BLOCK.sub("", fold.group(1)).strip()
+            lines = [f"# {line}".rstrip() for line in words.splitlines()]
+            found[last] = "\n".join([block.group(1).rstrip(), *lines])
     return found
 
 

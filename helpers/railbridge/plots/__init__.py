@@ -30,8 +30,8 @@ from .track import frequencies, irregularity, notch, slope, wheel_paths, wheels_
 __all__ = [
     "acceleration", "animate_crossing", "animate_vehicle_mode", "assurance", "box_section",
     "car_forces", "convergence", "damping", "deck_mode", "deck_modes", "deviations", "diagram",
-    "displacement", "frequencies", "influence_line", "irregularity", "iterations", "load_modes", "notch",
-    "reactions", "section_force", "shell_mode", "shell_modes", "slope", "spectra", "spectrum",
-    "train_on_deck", "vehicle", "vehicle_mode", "velocity", "wheel_force", "wheel_forces",
-    "wheel_paths", "wheels_on_track",
+    "displacement", "frequencies", "influence_line", "irregularity", "iterations", "load_modes",
+    "notch", "reactions", "section_force", "shell_mode", "shell_modes", "slope", "spectra",
+    "spectrum", "train_on_deck", "vehicle", "vehicle_mode", "velocity", "wheel_force",
+    "wheel_forces", "wheel_paths", "wheels_on_track",
 ]  # fmt: skip

@@ -6,7 +6,7 @@ import pytest
 
 from railbridge.errors import InputError
 from railbridge.lessons import exercise, exercises
-from railbridge.lessons.exercises import Choice, Exercise, Number, Numbers, Slip, Written
+from railbridge.lessons.answer_tables import Choice, Exercise, Number, Numbers, Slip, Written
 from railbridge.lessons.trials import TRIALS
 
 
