@@ -86,7 +86,8 @@ def figures(case, run):
     }
 
 
-FIGURES = [name for name in plots.__all__ if not name.startswith("animate_")]
+# What moves, and the diagrams, are no figures of Matplotlib.
+FIGURES = [n for n in plots.__all__ if n != "diagram" and not n.startswith("animate_")]
 
 TIME, PLACE = "time since the first axle entered (s)", "x from the bridge entrance (m)"
 HERTZ = "frequency (Hz)"
