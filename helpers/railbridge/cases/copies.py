@@ -30,6 +30,7 @@ PAGES = (
     "LICENSE-notebooks.md",
     "docs/case.md",
     "docs/exchange.md",
+    "docs/symbols.md",
     "docs/crossing.png",
 )
 """What the notebooks lead to, besides each other and the data files."""
