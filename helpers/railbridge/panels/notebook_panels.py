@@ -82,6 +82,11 @@ def _starting_case(case: Case | None, changes: Values) -> Case:
     return case.replace(changes)
 
 
+def _start_name(case: Case | None) -> str:
+    """Return what the legend calls the case that a panel starts from."""
+    return "paper case" if case is None else "at the start"
+
+
 # ---- words and numbers that several panels share
 
 
@@ -175,6 +180,8 @@ def irregularities(case: Case | None = None) -> Panel:
         compute=lambda case, _: None,
         code="{speed} / {wavelength}  # Hz, forcing frequency",
         size=(9.0, 6.0),
+        behind={"track": ["vertical"], "paths": ["1 1"]},
+        start_name=_start_name(case),
     )
 
 
@@ -213,6 +220,8 @@ def rigid_forces(case: Case | None = None) -> Panel:
         code="max(abs(run.car_forces(1, static=False)['force_z']))  # N, bounce",
         size=(9.0, 5.8),
         rough=True,
+        behind={"force_z": ["force_z"], "moment_y": ["moment_y"], "wheel": ["force_z"]},
+        start_name=_start_name(case),
     )
 
 
@@ -238,7 +247,7 @@ def deck_modes(case: Case | None = None) -> Panel:
         # Only modes have a ratio: the forcing is no mark of this curve.
         marks = {"the mode": case.deck.frequencies_hz[mode - 1]}
         plots.deck_mode(case.deck, mode, axes["mode"])
-        plots.frequencies(case.deck, forcing, axes["frequencies"], most=60.0)
+        plots.frequencies(case.deck, forcing, axes["frequencies"], most=60.0, least=0.1)
         plots.damping(*coefficients, marks, axes["damping"])
 
     def say(case, coefficients, values):
@@ -270,6 +279,8 @@ def deck_modes(case: Case | None = None) -> Panel:
         code="case.deck.frequencies_hz[{mode} - 1], case.deck.damping_ratios[{mode} - 1]",
         size=(9.0, 6.8),
         heights=[1.0, 1.0, 1.3],
+        behind={"damping": ["total"]},
+        start_name=_start_name(case),
     )
 
 
@@ -299,6 +310,8 @@ def deck_response(case: Case | None = None) -> Panel:
         code=f"run{_SAG_CODE}",
         size=(9.0, 5.0),
         rough=True,
+        behind={"displacement": ["displacement_z "], "moment": ["moment_vertical "]},
+        start_name=_start_name(case),
     )
 
 
@@ -332,6 +345,15 @@ def fixed_point(case: Case | None = None) -> Panel:
         size=(9.0, 6.4),
         heights=[1.3, 1.0, 1.1],
         rough=True,
+        behind={
+            "force": ["rank 1"],
+            "force minus": ["rank 0"],
+            "displacement": ["rank 1"],
+            "displacement minus": ["rank 0"],
+            "changes": ["changes None"],
+            "deviations": ["rigid None"],
+        },
+        start_name=_start_name(case),
     )
 
 
@@ -356,7 +378,7 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
         car_components(run, (axes["forces"], axes["moments"]), now=now)
         plots.displacement(run, x, axes["displacement"])
         mark_instant(axes["displacement"], now)
-        plots.spectrum(run, axes["spectrum"], mark={"forcing": _forcing(values)})
+        plots.spectrum(run, axes["spectrum"], mark={"forcing": _forcing(values)}, most=30.0)
         plots.deviations(last, axes["deviations"])
 
     def say(case, stages, values):
@@ -381,4 +403,12 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
         heights=[0.75, 1.2, 1.0],
         rough=True,
         dpi=dpi,
+        behind={
+            "forces": ["force_z"],
+            "moments": ["moment_y"],
+            "displacement": ["displacement_z "],
+            "spectrum": ["spectrum  heads"],
+            "deviations": ["rigid None"],
+        },
+        start_name=_start_name(case),
     )

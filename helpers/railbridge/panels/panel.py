@@ -14,6 +14,7 @@ from base64 import b64encode
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
+from types import MappingProxyType
 from typing import Any
 
 import ipywidgets as widgets
@@ -23,7 +24,7 @@ from matplotlib.figure import Figure
 from .. import errors
 from ..cases.definition import Case
 from ..errors import InputError, Remark
-from ..plots.drawing import FIGURE_WIDTH, keep_limits, reuse_artists
+from ..plots.drawing import FIGURE_WIDTH, keep_limits, leave_behind, reuse_artists
 from ..plots.picture import Picture
 from ..results import Crossing
 from ..settings import default_time_step
@@ -82,6 +83,11 @@ class Panel:
         moved.
     dpi : float
         Dots per inch of the picture; more for a projector.
+    behind : mapping of sequence of str
+        By axes, the names of curves that stay as they are at the start, in grey behind those that
+        move.
+    start_name : str
+        What the legend calls them.
 
     Raises
     ------
@@ -104,6 +110,8 @@ class Panel:
         heights: Sequence[float] | None = None,
         rough: bool = False,
         dpi: float = DPI,
+        behind: Mapping[str, Sequence[str]] = MappingProxyType({}),
+        start_name: str = "at the start",
     ) -> None:
         self.controls = {c.name: for_case(c, case) for c in controls}
         self.start = {c.name: c.first_value(case) for c in self.controls.values()}
@@ -125,6 +133,8 @@ class Panel:
         self._build_widgets()
         values = self.values
         self._draw(self._axes, *self._solve(values), values)
+        for name, curves in behind.items():
+            leave_behind(self._axes[name], curves, start_name)
         reuse_artists(self.figure)
         self._show()
         self._last_values = values

@@ -167,6 +167,7 @@ def frequencies(
     mark: Mapping[str, float] | None = None,
     ax: Axes | None = None,
     most: float | None = None,
+    least: float | None = None,
 ) -> Axes:
     """Plot natural frequencies as ticks on an axis, with marks such as a forcing frequency.
 
@@ -176,8 +177,8 @@ def frequencies(
     mark : mapping of float, optional
         Frequencies to mark, Hz, by name.
     ax : Axes, optional
-    most : float, optional
-        End of the axis, Hz.
+    most, least : float, optional
+        Ends of the axis, Hz.
     """
     ax, marks = axes_or_new(ax, 2.4), dict(mark or {})
     values, names = _named_frequencies(source)
@@ -198,10 +199,10 @@ def frequencies(
     for name, f in marks.items():
         line = {"color": style_of("force_z").colour, "lw": 2.5, "label": f"{name} {f:.4g} Hz"}
         curve(ax, f"line at {name}", [f, f], [0.0, 1.0], **line)
-    low = 0.75 * min([float(values[0]), *marks.values()])
+    low = least or 0.75 * min([float(values[0]), *marks.values()])
     high = max([most, *(1.1 * f for f in marks.values())])
     if reuses_artists(ax):
-        low, high = 1 / round_up(1 / low), round_up(high)
+        low, high = least or 1 / round_up(1 / low), round_up(high)
     log_frequencies(ax)
     label_axes(ax, "frequency (Hz)")
     ax.set(xlim=(low, high), ylim=(0.0, 1.0), yticks=[])

@@ -1,0 +1,111 @@
+"""What a slider does is seen as its size: scales that stay, and the start in grey behind."""
+
+import numpy as np
+import pytest
+
+import railbridge as rb
+from railbridge import panels
+
+QUICK = {"run.time_step": None, "train.cars": 2}
+GREY = "#8a8a8a"
+# What each panel leaves behind, by axes, and what moves it.
+BEHIND = {
+    "irregularities": {"track": "vertical", "paths": "1 1"},
+    "rigid_forces": {"force_z": "force_z", "moment_y": "moment_y", "wheel": "force_z"},
+    "deck_modes": {"damping": "total"},
+    "deck_response": {
+        "displacement": "displacement_z ", "moment": "moment_vertical ",
+    },
+    "fixed_point": {"force": "rank 1", "displacement": "rank 1", "deviations": "rigid None"},
+    "overview": {"forces": "force_z", "moments": "moment_y", "displacement": "displacement_z "},
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def all_panels():
+    """One panel of each kind, made once: what one test moves, it puts back."""
+    return {name: getattr(panels, name)(rb.case("paper").replace(QUICK)) for name in BEHIND}
+
+
+@pytest.fixture(params=BEHIND)
+def panel(request, all_panels):
+    yield all_panels[request.param]
+    all_panels[request.param].reset()
+
+
+def line(ax, name):
+    return next(line for line in ax.lines if line.get_gid() == name)
+
+
+def limits(panel):
+    return {name: (*ax.get_xlim(), *ax.get_ylim()) for name, ax in panel._axes.items()}
+
+
+def words_of_legends(panel):
+    legends = [ax.get_legend() for ax in panel.figure.axes if ax.get_legend() is not None]
+    return {text.get_text() for legend in legends for text in legend.get_texts()}
+
+
+def move(panel):
+    if "damping_ratio" in panel.controls:
+        return panel.set(damping_ratio=0.02)
+    return panel.set(speed=40.0, amplitude=1e-3)
+
+
+def test_the_start_stays_in_grey_behind_what_moves(panel, request):
+    curves = BEHIND[request.node.callspec.params["panel"]]
+    pairs = {
+        name: (line(panel._axes[name], f"{gid} left behind"), line(panel._axes[name], gid))
+        for name, gid in curves.items()
+    }
+    assert "at the start" in words_of_legends(panel)
+    first = {}
+    for name, (left, now) in pairs.items():
+        first[name] = left.get_ydata().copy()
+        at_start = np.interp(left.get_xdata(), now.get_xdata(), now.get_ydata())
+        assert at_start == pytest.approx(first[name], rel=0.01, abs=1e-9), name
+        assert left.get_color() == GREY and left.get_zorder() < now.get_zorder()
+    move(panel)
+    for name, (left, now) in pairs.items():
+        assert np.array_equal(left.get_ydata(), first[name]), name
+        assert not np.array_equal(now.get_ydata(), first[name]), name
+
+
+def test_the_start_of_the_shipped_case_is_called_the_paper_case():
+    words = words_of_legends(panels.irregularities())
+    assert "paper case" in words and "at the start" not in words
+
+
+def test_a_smaller_curve_is_drawn_smaller(panel):
+    """The scales of the start are never left for finer ones."""
+    start = limits(panel)
+    move(panel)
+    for name, now in limits(panel).items():
+        first = start[name]
+        assert now[0] <= first[0] and now[1] >= first[1], name
+        assert now[2] <= first[2] and now[3] >= first[3], name
+
+
+def test_scales_grow_in_steps_when_a_curve_would_leave_them(all_panels):
+    panel = all_panels["rigid_forces"]
+    shown = []
+    for amplitude in (1e-3, 5e-3, 6e-3, 7e-3, 10e-3):
+        panel.set(amplitude=amplitude)
+        shown.append(panel._axes["force_z"].get_ylim())
+    panel.reset()
+    assert shown == [(-100.0, 100.0)] * 3 + [(-150.0, 150.0), (-250.0, 250.0)]
+
+
+@pytest.mark.parametrize(
+    ("name", "axes"),
+    [("deck_modes", "frequencies"), ("overview", "spectrum")],
+)
+def test_axes_of_frequency_stay_whatever_the_speed(all_panels, name, axes):
+    panel, shown = all_panels[name], set()
+    for speed, wavelength in ((20.0, 14.4), (5.0, 40.0), (80.0, 3.0)):
+        panel.set(speed=speed, wavelength=wavelength)
+        ax, forcing = panel._axes[axes], speed / wavelength
+        shown.add(ax.get_xlim())
+        assert ax.get_xlim()[0] < forcing < ax.get_xlim()[1]
+    panel.reset()
+    assert len(shown) == 1
