@@ -109,3 +109,59 @@ def test_axes_of_frequency_stay_whatever_the_speed(all_panels, name, axes):
         assert ax.get_xlim()[0] < forcing < ax.get_xlim()[1]
     panel.reset()
     assert len(shown) == 1
+
+
+# ---- over the slider's own quantity
+
+
+def test_the_bounce_force_over_speed_shows_where_it_is_largest(all_panels):
+    panel = all_panels["rigid_forces"]
+    ax = panel._axes["over_speed"]
+    speed, force = line(ax, "over speed").get_data()
+    assert speed[0] == 5.0 and speed[-1] == 80.0
+    best = float(speed[np.argmax(force)])
+    assert best == 19.5 and line(ax, "line at car bounce").get_xdata()[0] == pytest.approx(
+        19.217, abs=1e-3
+    )
+    panel.set(speed=best)
+    assert line(ax, "now").get_data()[0] == [best]
+    assert line(ax, "now").get_data()[1] == pytest.approx([force.max()])
+    assert f"steady bounce {force.max():.1f} kN" in panel.summary
+    panel.set(speed=30.0)
+    assert f"steady bounce {line(ax, 'now').get_ydata()[0]:.1f} kN" in panel.summary
+    assert np.array_equal(line(ax, "over speed").get_ydata(), force), "of the other settings"
+    panel.set(amplitude=2.5e-3)
+    assert line(ax, "over speed").get_ydata() == pytest.approx(force / 2)
+    assert line(ax, "over speed left behind").get_ydata() == pytest.approx(force)
+    panel.reset()
+
+
+def test_the_curve_over_speed_is_computed_once_for_the_other_settings(all_panels, monkeypatch):
+    from railbridge.panels import notebook_panels
+
+    panel, asked = all_panels["rigid_forces"].set(wavelength=11.0), []
+    steady = notebook_panels.steady_forces
+    monkeypatch.setattr(
+        notebook_panels, "steady_forces", lambda *a: asked.append(a[2]) or steady(*a)
+    )
+    panel.set(speed=31.0).set(speed=32.0)
+    assert asked == [31.0, 32.0]
+    panel.set(wavelength=12.5)
+    assert len(asked) > 100
+    panel.reset()
+
+
+def test_resonance_speeds_stand_along_the_speed(all_panels):
+    panel = all_panels["deck_response"]
+    ax = panel._axes["in_step"]
+    waves = line(ax, "waves in step")
+    cars = line(ax, "cars in step")
+    f = 3.307
+    assert waves.get_xdata()[0] == pytest.approx(f * 14.4, rel=1e-3)
+    assert np.allclose(cars.get_xdata()[::3], f * 22.5 / np.arange(1, 5), rtol=1e-3)
+    panel.set(speed=33.0, wavelength=10.0)
+    assert line(ax, "now").get_xdata() == [33.0]
+    assert waves.get_xdata()[0] == pytest.approx(f * 10.0, rel=1e-3)
+    panel.set(cars=1)
+    assert not np.isfinite(cars.get_xdata()).any(), "one car has no spacing"
+    panel.reset()

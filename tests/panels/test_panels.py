@@ -480,15 +480,15 @@ def test_the_words_of_an_iteration_are_those_of_its_number(all_panels, name):
 
 
 def test_each_picture_shows_the_frequencies_of_its_subject(all_panels):
-    for name, values in (
-        ("deck_modes", lambda case: case.deck.frequencies_hz),
-        ("irregularities", lambda case: case.train.vehicles[0].modes().frequencies_hz),
-    ):
-        panel = all_panels[name]
-        lines = {line.get_gid(): line for line in panel._axes["frequencies"].lines}
-        shown = lines["natural"].get_xdata()[::3]
-        assert np.allclose(shown, values(panel.case)[: len(shown)]), name
-        assert np.allclose(lines["line at forcing"].get_xdata(), 20.0 / 14.4)
+    deck, car = (all_panels[name] for name in ("deck_modes", "irregularities"))
+    upright = {line.get_gid(): line.get_xdata() for line in deck._axes["frequencies"].lines}
+    level = {line.get_gid(): line.get_ydata() for line in car._axes["frequencies"].lines}
+    shown = upright["natural"][::3]
+    assert np.allclose(shown, deck.case.deck.frequencies_hz[: len(shown)])
+    frequencies = car.case.train.vehicles[0].modes().frequencies_hz
+    assert np.allclose(level["natural"][::3], frequencies)
+    assert np.allclose(upright["line at forcing"], 20.0 / 14.4)
+    assert np.allclose(level["now"], 20.0 / 14.4)
 
 
 def test_a_value_seen_before_is_not_computed_again():

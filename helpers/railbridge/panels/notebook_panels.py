@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -10,13 +11,15 @@ import numpy as np
 from .. import plots
 from ..cases.definition import Case
 from ..cases.definition import case as load_case
-from ..decks import rayleigh
+from ..decks import Deck, rayleigh
 from ..errors import Remark
 from ..plots.forces import car_components, mark_instant
 from ..plots.scene import crossing_at
+from ..plots.speeds import force_over_speed, frequency_met, speeds_in_step
 from ..plots.style import mode_in_words
 from ..results import Crossing
-from ..trains import CONDENSED, steady_forces
+from ..tracks import Track
+from ..trains import CONDENSED, AnyTrain, steady_forces
 from .control import Control
 from .panel import DPI, Panel
 
@@ -35,13 +38,14 @@ Stages = Mapping[int, Crossing]
 # ---- the controls, in their fixed order
 
 
+_SPEEDS = (5.0, 80.0)  # m/s, ends of the slider
+
+
 def _speed() -> Control:
     def in_km_h(v: float) -> str:
         return f"= {3.6 * v:.1f} km/h"
 
-    return Control(
-        "speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5, unit="m/s", aside=in_km_h
-    )
+    return Control("speed", "speed (m/s)", ("run.speed",), *_SPEEDS, 0.5, unit="m/s", aside=in_km_h)
 
 
 def _wavelength() -> Control:
@@ -52,6 +56,10 @@ def _wavelength() -> Control:
 def _amplitude() -> Control:
     paths = ("track.vertical.amplitude",)
     return Control("amplitude", "amplitude (mm)", paths, 0.0, 0.010, 0.0005, 1e3, "m")
+
+
+_SPEED_GRID = np.linspace(*_SPEEDS, 151)  # m/s, half a metre a second apart
+_FREQUENCIES = (0.1, 40.0)  # Hz, around all that sliders of speed and wavelength can make
 
 
 def _cars() -> Control:
@@ -161,8 +169,8 @@ def irregularities(case: Case | None = None) -> Panel:
         plots.irregularity(case.track, -40.0, 50.0, ax=axes["track"], deck=case.deck)
         plots.wheels_on_track(case.train, case.track, case.deck.length / 2, axes["track"])
         plots.wheel_paths(case.train, case.track, values["speed"], ax=axes["paths"])
-        forcing = {"forcing": _forcing(values)}
-        plots.frequencies(case.train.vehicles[0], forcing, axes["frequencies"])
+        met = _SPEED_GRID, values["wavelength"], values["speed"], _FREQUENCIES
+        frequency_met(case.train.vehicles[0], *met, axes["frequencies"])
 
     def say(case, result, values):
         modes, forcing = case.train.vehicles[0].modes(), _forcing(values)
@@ -179,8 +187,9 @@ def irregularities(case: Case | None = None) -> Panel:
         say,
         compute=lambda case, _: None,
         code="{speed} / {wavelength}  # Hz, forcing frequency",
-        size=(9.0, 6.0),
-        behind={"track": ["vertical"], "paths": ["1 1"]},
+        size=(9.0, 6.4),
+        heights=[1.0, 1.0, 2.0],
+        behind={"track": ["vertical"], "paths": ["1 1"], "frequencies": ["met"]},
         start_name=_start_name(case),
     )
 
@@ -188,14 +197,22 @@ def irregularities(case: Case | None = None) -> Panel:
 def rigid_forces(case: Case | None = None) -> Panel:
     """Panel of notebook 03: one car on a rigid deck.
 
-    Its bounce and pitch, with the steady amplitude, and a wheel's force.
+    Its bounce and pitch, with the steady amplitude, a wheel's force, and the steady bounce over the
+    speed.
     """
 
     def compute(case, progress):
-        return case.compute(progress), _steady_components(case)
+        steady = _steady_components(case.train, case.track, case.options["speed"])
+        return case.compute(progress), steady
 
     def draw(axes, case, result, values):
         run, steady = result
+        modes = run.train.vehicles[0].modes()
+        bounce = dict(zip(modes.names, modes.frequencies_hz, strict=True)).get("car z")
+        marks = {} if bounce is None else {"car bounce": bounce * values["wavelength"]}
+        over_speed = _bounce_over_speed(run.train, case.track)
+        now = values["speed"], steady["force_z"]
+        force_over_speed(_SPEED_GRID, over_speed, now, marks, axes["over_speed"])
         names = ("force_z", "moment_y")
         plots.car_forces(run, axes=[axes[n] for n in names], steady=steady, components=names)
         plots.wheel_force(run, ax=axes["wheel"])
@@ -212,24 +229,35 @@ def rigid_forces(case: Case | None = None) -> Panel:
     return Panel(
         _starting_case(case, {**_RIGID, "train.cars": 1}),
         [_speed(), _wavelength(), _amplitude()],
-        [["force_z"], ["moment_y"], ["wheel"]],
+        [["over_speed", "force_z"], ["wheel", "moment_y"]],
         draw,
         say,
         compute=compute,
         remarks=lambda case, result: case.remarks(result[0]),
         code="max(abs(run.car_forces(1, static=False)['force_z']))  # N, bounce",
-        size=(9.0, 5.8),
+        size=(9.0, 5.0),
         rough=True,
-        behind={"force_z": ["force_z"], "moment_y": ["moment_y"], "wheel": ["force_z"]},
+        behind={
+            "over_speed": ["over speed"],
+            "force_z": ["force_z"],
+            "moment_y": ["moment_y"],
+            "wheel": ["force_z"],
+        },
         start_name=_start_name(case),
     )
 
 
-def _steady_components(case: Case) -> dict[str, float]:
+def _steady_components(train: AnyTrain, track: Track, speed: float) -> dict[str, float]:
     """Return the steady amplitudes of the first car's five components, N and N m."""
-    forces = steady_forces(case.train.vehicles[0], case.track, case.options["speed"])
-    resultant = np.tensordot(case.train.car(1).condensation("condensed").matrix[0], forces, 2)
+    forces = steady_forces(train.vehicles[0], track, speed)
+    resultant = np.tensordot(train.car(1).condensation("condensed").matrix[0], forces, 2)
     return dict(zip(CONDENSED, np.abs(resultant).tolist(), strict=True))
+
+
+@lru_cache(maxsize=2)
+def _bounce_over_speed(train: AnyTrain, track: Track) -> np.ndarray:
+    """Return the steady bounce force of the first car at the speeds of the grid, N."""
+    return np.array([_steady_components(train, track, v)["force_z"] for v in _SPEED_GRID])
 
 
 def deck_modes(case: Case | None = None) -> Panel:
@@ -285,11 +313,16 @@ def deck_modes(case: Case | None = None) -> Panel:
 
 
 def deck_response(case: Case | None = None) -> Panel:
-    """Panel of notebook 05: displacement and moment at mid-span under rigid-deck forces."""
+    """Panel of notebook 05: displacement and moment at mid-span under rigid-deck forces.
+
+    Below, the speeds at which cars or waves keep step with the deck.
+    """
 
     def draw(axes, case, run, values):
         plots.displacement(run, case.points[0], axes["displacement"])
         plots.section_force(run, case.points[0], "moment_vertical", axes["moment"])
+        in_step = _speeds_in_step(case.train, case.deck, values["wavelength"])
+        speeds_in_step(in_step, values["speed"], _SPEEDS, axes["in_step"])
 
     def say(case, run, values):
         x = case.points[0]
@@ -304,15 +337,29 @@ def deck_response(case: Case | None = None) -> Panel:
     return Panel(
         _starting_case(case, _RIGID),
         [_speed(), _wavelength(), _amplitude(), _cars(), _loads()],
-        [["displacement"], ["moment"]],
+        [["displacement"], ["moment"], ["in_step"]],
         draw,
         say,
         code=f"run{_SAG_CODE}",
-        size=(9.0, 5.0),
+        size=(9.0, 5.4),
+        heights=[1.0, 1.0, 0.35],
         rough=True,
         behind={"displacement": ["displacement_z "], "moment": ["moment_vertical "]},
         start_name=_start_name(case),
     )
+
+
+def _speeds_in_step(train: AnyTrain, deck: Deck, wavelength: float) -> dict[str, list[float]]:
+    """Return the speeds at which cars and waves keep step with the first vertical mode, m/s.
+
+    Those of the cars for 1 to 4 swings from one car to the next (Eq. 5.4 of notebook 05); one car
+    alone has none.
+    """
+    named = zip(deck.mode_names, deck.frequencies_hz, strict=True)
+    first = next((f for name, f in named if name.startswith("vertical")), deck.frequencies_hz[0])
+    spacing = train.car(2).centre - train.car(1).centre if len(train.formation) > 1 else np.nan
+    cars = [float(first * spacing / i) for i in (1, 2, 3, 4)]
+    return {"cars in step": cars, "waves in step": [float(first * wavelength)]}
 
 
 def fixed_point(case: Case | None = None) -> Panel:
