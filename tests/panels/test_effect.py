@@ -165,3 +165,20 @@ def test_resonance_speeds_stand_along_the_speed(all_panels):
     panel.set(cars=1)
     assert not np.isfinite(cars.get_xdata()).any(), "one car has no spacing"
     panel.reset()
+
+
+# ---- the sketch
+
+
+def test_the_sketch_keeps_its_scales_while_there_is_room(all_panels):
+    panel = all_panels["overview"]
+    ax, drawn = panel._axes["train"], {}
+    for amplitude in (5e-3, 1e-3, 10e-3):
+        panel.set(amplitude=amplitude)
+        words = " ".join(text.get_text() for text in ax.texts)
+        assert "drawn 200 times too large" in words and "this long: 150 kN" in words
+        x, rail = line(ax, "rail").get_data()
+        drawn[amplitude] = rail[x < 0.0].max()
+    assert drawn[1e-3] == pytest.approx(0.2, rel=0.01), "200 times 1 mm"
+    assert drawn[10e-3] == pytest.approx(2.0, rel=0.01)
+    panel.reset()

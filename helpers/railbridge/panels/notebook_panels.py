@@ -14,7 +14,7 @@ from ..cases.definition import case as load_case
 from ..decks import Deck, rayleigh
 from ..errors import Remark
 from ..plots.forces import car_components, mark_instant
-from ..plots.scene import crossing_at
+from ..plots.scene import arrow_force, comfortable_exaggeration, crossing_at
 from ..plots.speeds import force_over_speed, frequency_met, speeds_in_step
 from ..plots.style import mode_in_words
 from ..results import Crossing
@@ -417,11 +417,14 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
     """
     base = _starting_case(case, _ITERATED)
     reach = int(np.ceil((base.deck.length + base.train.length) / 10)) * 10
+    scales: dict[str, float] = {}  # of the sketch at the start: it never magnifies more
 
     def draw(axes, case, stages, values):
         x, run, last = case.points[0], stages[values["iteration"]], stages[max(stages)]
         now = values["place"] / values["speed"]
-        crossing_at(run, values["place"], axes["train"])
+        if not scales:
+            scales.update(exaggeration=comfortable_exaggeration(run), force=arrow_force(run))
+        crossing_at(run, values["place"], axes["train"], **scales)
         car_components(run, (axes["forces"], axes["moments"]), now=now)
         plots.displacement(run, x, axes["displacement"])
         mark_instant(axes["displacement"], now)
@@ -446,8 +449,8 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
         compute=_by_iteration,
         remarks=_of_last,
         code=f"run.at({{iteration}}){_SAG_CODE}",
-        size=(11.0, 5.6),
-        heights=[0.75, 1.2, 1.0],
+        size=(11.0, 6.0),
+        heights=[1.35, 1.2, 1.0],
         rough=True,
         dpi=dpi,
         behind={
