@@ -79,11 +79,12 @@ def test_the_start_of_the_shipped_case_is_called_the_paper_case():
 def test_a_smaller_curve_is_drawn_smaller(panel):
     """The scales of the start are never left for finer ones."""
     start = limits(panel)
-    move(panel)
-    for name, now in limits(panel).items():
-        first = start[name]
-        assert now[0] <= first[0] and now[1] >= first[1], name
-        assert now[2] <= first[2] and now[3] >= first[3], name
+    for values in ({}, {"wavelength": 6.2}, {"speed": 80.0}):
+        move(panel).set(**values)
+        for name, now in limits(panel).items():
+            first = start[name]
+            assert now[0] <= first[0] and now[1] >= first[1], name
+            assert now[2] <= first[2] and now[3] >= first[3], name
 
 
 def test_scales_grow_in_steps_when_a_curve_would_leave_them(all_panels):
@@ -181,4 +182,38 @@ def test_the_sketch_keeps_its_scales_while_there_is_room(all_panels):
         drawn[amplitude] = rail[x < 0.0].max()
     assert drawn[1e-3] == pytest.approx(0.2, rel=0.01), "200 times 1 mm"
     assert drawn[10e-3] == pytest.approx(2.0, rel=0.01)
+    panel.reset()
+
+
+# ---- words where a per cent figure would say nothing
+
+
+@pytest.mark.parametrize("name", ["fixed_point", "overview"])
+def test_a_per_cent_figure_of_almost_nothing_is_put_into_words(all_panels, name):
+    """At 6.2 m the wheels push against each other: Eq. 3 would say +652 %."""
+    panel = all_panels[name].set(wavelength=6.2)
+    run = panel.case.run()
+    at, rigid = (run.at(i).car_forces(1)["force_z"] for i in (4, 0))
+    words = "the rigid-deck force is almost zero here, so a per cent figure says nothing: "
+    words += f"it changes by {np.abs(at - rigid).max() / 1e3:.1f} kN"
+    assert words in panel.summary and "(Eq. 3)" not in panel.summary
+    ax = panel._axes["deviations"]
+    assert not np.isfinite(line(ax, "rigid None").get_ydata()).any()
+    assert "says nothing" in " ".join(text.get_text() for text in ax.texts)
+    panel.reset()
+    assert "(Eq. 3)" in panel.summary and "says nothing" not in panel.summary
+    assert np.isfinite(line(ax, "rigid None").get_ydata()).all()
+    assert "says nothing" not in " ".join(text.get_text() for text in ax.texts)
+
+
+def test_level_rails_leave_a_force_that_is_all_the_decks(all_panels):
+    panel = all_panels["overview"].set(amplitude=0.0)
+    assert "almost zero here" in panel.summary and "nan" not in panel.summary
+    panel.reset()
+
+
+def test_the_forces_are_named_at_iteration_0_too(all_panels):
+    panel = all_panels["overview"].set(iteration=0)
+    assert "largest extra wheel force" in panel.summary
+    assert "kN; rigid-deck forces; forcing" in panel.summary
     panel.reset()

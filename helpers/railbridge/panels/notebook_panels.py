@@ -28,6 +28,8 @@ __all__ = [
 ]  # fmt: skip
 
 ITERATIONS = 4
+ALMOST_ZERO = 0.01  # of a car's weight: below, a force is no measure for another
+_NOTHING = "the rigid-deck force is almost zero here, so a per cent figure says nothing"
 LOADS = {"condensed": "condensed loads", "bogies": "bogie loads", "wheels": "wheel loads"}
 
 Values = Mapping[str, Any]
@@ -121,34 +123,70 @@ def _by_iteration(case: Case, progress: Callable[[str], None] | None = None) -> 
     return {i: run.at(i) for i in range(run.iterations + 1)}
 
 
-def _iteration_in_words(stages: Stages, case: Case, values: Values, plain: bool = False) -> str:
-    """Say the displacement, and how far it has settled.
-
-    Plainly: in the words of someone who has not met Eq. 3.
-    """
+def _sag_in_words(stages: Stages, case: Case, values: Values, how: str = "") -> str:
+    """Say the largest displacement at an iteration and at iteration 0."""
     x, i, last = case.points[0], values["iteration"], stages[max(stages)]
     w, first = (
         1e3 * stages[number].displacement(x).extreme("displacement_z")[0] for number in (i, 0)
     )
-    if i == 0:
-        change = "rigid-deck forces"
-    else:
-        deviation = last.deviations.from_rigid[i - 1]
-        change = "no waves to measure Eq. 3 against"
-        if np.isfinite(deviation):
-            compared = "deviation from the rigid deck"
-            if plain:
-                compared = "the force of car 1 differs from that on a rigid deck by"
-            change = f"{compared} {deviation:+.{1 if plain else 3}f} % (Eq. 3)"
-        size = last.changes[i - 1]
-        if plain:
-            change += f"; the wheel forces changed by {100 * size:.2g} % in this iteration"
-        else:
-            change += f", change of this iteration {size:.1e}"
-    loads = LOADS[last.settings.loads] + ("" if plain else ", fixed number of iterations")
     sag = f"displacement at x = {x:g} m is {w:.2f} mm at iteration {i} of {last.iterations}"
-    before = f"{first:.2f} mm at iteration 0"
-    return f"{_conditions_in_words(values)}{sag} ({loads}), {before}; {change}."
+    loads = LOADS[last.settings.loads] + how
+    return f"{_conditions_in_words(values)}{sag} ({loads}), {first:.2f} mm at iteration 0; "
+
+
+def _bounce(run: Crossing) -> np.ndarray:
+    """Return the vertical force of the first car over time, without its weight, N."""
+    return run.car_forces(1, static=False)["force_z"]
+
+
+def _is_almost_zero(rigid: Crossing) -> bool:
+    """Return whether a car hardly bounces on the rigid deck, so that Eq. 3 divides by nothing."""
+    weight = -rigid.train.car(1).static_forces[:, 1].sum()
+    return bool(np.abs(_bounce(rigid)).max() < ALMOST_ZERO * weight)
+
+
+def _change_from_nothing(stages: Stages, i: int) -> str:
+    """Say in kN what a per cent figure could not say."""
+    change = np.abs(_bounce(stages[i]) - _bounce(stages[0])).max() / 1e3
+    return f"{_NOTHING}: it changes by {change:.1f} kN"
+
+
+def _iteration_in_words(stages: Stages, case: Case, values: Values) -> str:
+    """Say the displacement, and how far it has settled."""
+    i, last = values["iteration"], stages[max(stages)]
+    change = "rigid-deck forces"
+    if i > 0:
+        deviation = last.deviations.from_rigid[i - 1]
+        change = f"deviation from the rigid deck {deviation:+.3f} % (Eq. 3)"
+        if _is_almost_zero(stages[0]):
+            change = _change_from_nothing(stages, i)
+        change += f", change of this iteration {last.changes[i - 1]:.1e}"
+    return f"{_sag_in_words(stages, case, values, ', fixed number of iterations')}{change}."
+
+
+def _story_in_words(stages: Stages, case: Case, values: Values) -> str:
+    """Say displacement and forces to someone who has not met Eq. 3."""
+    i, last = values["iteration"], stages[max(stages)]
+    run = stages[i]
+    at_rest = np.array([wheel.static_load for wheel in run.train.wheels])
+    extra = float((-run.wheel_forces[:, 1] - at_rest[:, None]).max()) / 1e3
+    bounce = float(np.abs(_bounce(run)).max()) / 1e3
+    force = f"largest extra wheel force {extra:.1f} kN; bounce force of car 1 (its wheels "
+    force += f"together, without its weight) up to {bounce:.1f} kN"
+    change = "; rigid-deck forces"
+    if i > 0:
+        change = f", {last.deviations.from_rigid[i - 1]:+.1f} % against a rigid deck (Eq. 3)"
+        if _is_almost_zero(stages[0]):
+            change = f"; {_change_from_nothing(stages, i)}"
+        size = 100 * last.changes[i - 1]
+        change += f"; the wheel forces changed by {size:.2g} % in this iteration"
+    sag = _sag_in_words(stages, case, values)
+    return f"{sag}{force}{change}; forcing {_forcing(values):.3f} Hz."
+
+
+def _draw_deviations(ax: Any, stages: Stages) -> None:
+    nothing = _NOTHING.replace(", so", ",\nso") if _is_almost_zero(stages[0]) else ""
+    plots.deviations(stages[max(stages)], ax, instead=nothing)
 
 
 def _of_last(case: Case, stages: Stages) -> list[Remark]:
@@ -371,7 +409,7 @@ def fixed_point(case: Case | None = None) -> Panel:
         plots.iterations(stages, "force_z", which, force)
         plots.iterations(stages, "displacement_z", which, sag, case.points[0])
         plots.convergence(last, axes["changes"])
-        plots.deviations(last, axes["deviations"])
+        _draw_deviations(axes["deviations"], stages)
 
     def say(case, stages, values):
         return _iteration_in_words(stages, case, values)
@@ -398,7 +436,7 @@ def fixed_point(case: Case | None = None) -> Panel:
             "displacement": ["rank 1"],
             "displacement minus": ["rank 0"],
             "changes": ["changes None"],
-            "deviations": ["rigid None"],
+            "deviations": ["rigid None", "previous None"],
         },
         start_name=_start_name(case),
     )
@@ -420,7 +458,7 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
     scales: dict[str, float] = {}  # of the sketch at the start: it never magnifies more
 
     def draw(axes, case, stages, values):
-        x, run, last = case.points[0], stages[values["iteration"]], stages[max(stages)]
+        x, run = case.points[0], stages[values["iteration"]]
         now = values["place"] / values["speed"]
         if not scales:
             scales.update(exaggeration=comfortable_exaggeration(run), force=arrow_force(run))
@@ -429,11 +467,10 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
         plots.displacement(run, x, axes["displacement"])
         mark_instant(axes["displacement"], now)
         plots.spectrum(run, axes["spectrum"], mark={"forcing": _forcing(values)}, most=30.0)
-        plots.deviations(last, axes["deviations"])
+        _draw_deviations(axes["deviations"], stages)
 
     def say(case, stages, values):
-        words = _iteration_in_words(stages, case, values, plain=True)
-        return words.removesuffix(".") + f"; forcing {_forcing(values):.3f} Hz."
+        return _story_in_words(stages, case, values)
 
     place = Control("place", "first axle (m)", (), 0, reach, 1, start=min(100, reach), plays=True)
     return Panel(
@@ -458,7 +495,7 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
             "moments": ["moment_y"],
             "displacement": ["displacement_z "],
             "spectrum": ["spectrum  heads"],
-            "deviations": ["rigid None"],
+            "deviations": ["rigid None", "previous None"],
         },
         start_name=_start_name(case),
     )

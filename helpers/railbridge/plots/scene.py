@@ -147,8 +147,8 @@ def crossing_at(
     feet = rail(outline.wheels)
     _draw_forces(ax, outline.wheels, feet, _axle_forces(run)[:, sample] / full, at_rest / full)
     curve(ax, "scale of the forces", [start + 1.5] * 2, [-5.9, -5.9 - _ARROW], color=_TRAIN)
-    note(ax, "scale", f"force of an axle on the rail,\nthis long: {full / 1e3:g} kN (grey: at rest)",
-         0.022, 0.02, va="bottom", color=_TRAIN, size=9)  # fmt: skip
+    text = f"force of an axle on the rail,\nthis long: {full / 1e3:g} kN (grey: at rest)"
+    note(ax, "scale", text, 0.022, 0.02, va="bottom", color=_TRAIN, size=9)
     text = f"{literal(deck.name)}, {deck.length:g} m\n"
     text += f"deck and waves drawn {factor:g} times too large"
     note(ax, "exaggeration", text, 0.995, 0.02, ha="right", va="bottom", color=_MOVED, size=9)
