@@ -194,7 +194,8 @@ def _of_last(case: Case, stages: Stages) -> list[Remark]:
     return case.remarks(stages[max(stages)])
 
 
-_SAG_CODE = ".displacement(x={x:g}).extreme('displacement_z')  # m, s"
+_SAG_CODE = 'run.displacement(x={x}).extreme("displacement_z")  # m, s'
+_FORCES_CODE = 'rb.plots.car_forces(run, components=["force_z", "moment_y"])\n'
 
 
 # ---- the panels
@@ -224,7 +225,10 @@ def irregularities(case: Case | None = None) -> Panel:
         draw,
         say,
         compute=lambda case, _: None,
-        code="{speed} / {wavelength}  # Hz, forcing frequency",
+        code="rb.plots.irregularity(case.track, deck=case.deck)\n"
+        "forcing = {speed} / {wavelength}  # Hz\n"
+        'rb.plots.frequencies(case.train.vehicles[0], {{"forcing": forcing}})\n'
+        "forcing",
         size=(9.0, 6.4),
         heights=[1.0, 1.0, 2.0],
         behind={"track": ["vertical"], "paths": ["1 1"], "frequencies": ["met"]},
@@ -272,7 +276,8 @@ def rigid_forces(case: Case | None = None) -> Panel:
         say,
         compute=compute,
         remarks=lambda case, result: case.remarks(result[0]),
-        code="max(abs(run.car_forces(1, static=False)['force_z']))  # N, bounce",
+        code=f"run = case.run()\n{_FORCES_CODE}rb.plots.wheel_force(run)\n"
+        'max(abs(run.car_forces(1, static=False)["force_z"]))  # N, bounce',
         size=(9.0, 5.0),
         rough=True,
         behind={
@@ -342,7 +347,10 @@ def deck_modes(case: Case | None = None) -> Panel:
         draw,
         say,
         compute=compute,
-        code="case.deck.frequencies_hz[{mode} - 1], case.deck.damping_ratios[{mode} - 1]",
+        code="deck = case.deck\nrb.plots.deck_mode(deck, {mode})\n"
+        "rayleigh = rb.rayleigh({damping_ratio}, [{first_frequency}, {second_frequency}])\n"
+        "rb.plots.damping(*rayleigh)\n"
+        "deck.frequencies_hz[{mode} - 1], deck.damping_ratios[{mode} - 1]  # Hz, -",
         size=(9.0, 6.8),
         heights=[1.0, 1.0, 1.3],
         behind={"damping": ["total"]},
@@ -378,7 +386,8 @@ def deck_response(case: Case | None = None) -> Panel:
         [["displacement"], ["moment"], ["in_step"]],
         draw,
         say,
-        code=f"run{_SAG_CODE}",
+        code="run = case.run()\nrb.plots.displacement(run, x={x})\n"
+        f"rb.plots.section_force(run, x={{x}})\n{_SAG_CODE}",
         size=(9.0, 5.4),
         heights=[1.0, 1.0, 0.35],
         rough=True,
@@ -426,7 +435,9 @@ def fixed_point(case: Case | None = None) -> Panel:
         say,
         compute=_by_iteration,
         remarks=_of_last,
-        code=f"run.at({{iteration}}){_SAG_CODE}",
+        code="run = case.run()\nrb.plots.convergence(run)\n"
+        'rb.plots.iterations(run, "force_z", which=(0, {iteration}))\n'
+        f"run = run.at({{iteration}})\n{_SAG_CODE}",
         size=(9.0, 6.4),
         heights=[1.3, 1.0, 1.1],
         rough=True,
@@ -485,7 +496,8 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
         say,
         compute=_by_iteration,
         remarks=_of_last,
-        code=f"run.at({{iteration}}){_SAG_CODE}",
+        code="run = case.run().at({iteration})\nrb.plots.displacement(run, x={x})\n"
+        f"{_FORCES_CODE}{_SAG_CODE}",
         size=(11.0, 6.0),
         heights=[1.35, 1.2, 1.0],
         rough=True,

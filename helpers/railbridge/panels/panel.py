@@ -28,6 +28,7 @@ from ..plots.drawing import FIGURE_WIDTH, keep_limits, leave_behind, reuse_artis
 from ..plots.picture import Picture
 from ..results import Crossing
 from ..settings import default_time_step
+from .code import case_lines
 from .control import Control, change_at, for_case
 
 __all__ = ["DPI", "FALLBACK", "Panel"]
@@ -72,8 +73,8 @@ class Panel:
         warned of is shown with the exact picture. By default those on a crossing, or on the input
         where the result is something else.
     code : str
-        Last line of *Show this as code*, formatted with the values: the number that the summary
-        gives.
+        Lines of *Show this as code* after those that make the case, formatted with the values: they
+        draw, and the last one is the number that the summary gives.
     size : (float, float)
         Inches.
     heights : sequence of float, optional
@@ -105,7 +106,7 @@ class Panel:
         *,
         compute: Callable[[Case, Progress | None], Any] = Case.compute,
         remarks: Callable[[Case, Any], Sequence[Remark]] | None = None,
-        code: str = "",
+        code: str = "run = case.run()",
         size: tuple[float, float] = (FIGURE_WIDTH, 4.6),
         heights: Sequence[float] | None = None,
         rough: bool = False,
@@ -120,7 +121,7 @@ class Panel:
         self.case = self._base = case
         self._draw, self._say, self._compute = draw, say, compute
         self._remarks = remarks or _usual_remarks
-        self._code_line, self._rough = code, rough
+        self._code, self._rough = code, rough
         self._results: OrderedDict[tuple, tuple[Case, Any]] = OrderedDict()
         self._moves = 0
         self._timers: list[asyncio.TimerHandle] = []
@@ -160,7 +161,7 @@ class Panel:
         self.code_button = _button("Show this as code", tooltip)
         self.code_button.on_click(lambda _: self._show_or_hide_code())
         layout = widgets.Layout(width="100%", max_width="900px", display="none")
-        self.code_area = widgets.Textarea(rows=14, layout=layout)
+        self.code_area = widgets.Textarea(layout=layout)
         self.widget = self._arranged()
         for widget, name in (
             (self.image, "picture"),
@@ -182,7 +183,7 @@ class Panel:
         wrapped = widgets.Layout(flex_flow="row wrap")
         buttons = widgets.HBox([self.paper_button, self.code_button], layout=wrapped)
         side_layout = widgets.Layout(flex="1 1 24em", min_width="0")
-        side = widgets.VBox([controls, buttons], layout=side_layout)
+        side = widgets.VBox([controls, buttons, self.code_area], layout=side_layout)
         width = self.figure.get_figwidth() * DPI
         main_layout = widgets.Layout(
             flex=f"6 1 {0.82 * width:.0f}px", min_width="0", max_width=f"{width:.0f}px"
@@ -193,7 +194,7 @@ class Panel:
         side.add_class("rb-side")
         main.add_class("rb-main")
         wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="4px 1em")
-        return widgets.VBox([widgets.HBox([side, main], layout=wrapped), self.code_area])
+        return widgets.VBox([widgets.HBox([side, main], layout=wrapped)])
 
     def _row(self, name: str) -> list[widgets.Widget]:
         """Return a control and what stands beside it."""
@@ -214,11 +215,9 @@ class Panel:
 
     @property
     def code(self) -> str:
-        """Python lines that compute the present case, and the number that the summary gives."""
-        code = self.case.code()
-        if self._code_line:
-            code += self._code_line.format(**self.values, x=self.case.points[0]) + "\n"
-        return code
+        """Python lines that compute the present case, draw it, and give the summary's number."""
+        lines = self._code.format(**self.values, x=self.case.points[0])
+        return case_lines(self.case, self.controls.values()) + f"{lines}\n"
 
     def set(self, **values: Any) -> Panel:
         """Move controls, as by hand: the picture and the summary follow, at once the exact ones.
@@ -390,7 +389,7 @@ class Panel:
         self._write_summary(rough, note)
         self.trouble.value = ""
         if self.code_area.layout.display != "none":
-            self.code_area.value = self.code
+            self._write_code()
 
     def _show_error(self, error: Exception) -> None:
         self.error = error
@@ -408,9 +407,14 @@ class Panel:
 
     def _show_or_hide_code(self) -> None:
         hidden = self.code_area.layout.display == "none"
-        self.code_area.value = self.code
+        self._write_code()
         self.code_area.layout.display = "flex" if hidden else "none"
         self.code_button.description = "Hide the code" if hidden else "Show this as code"
+
+    def _write_code(self) -> None:
+        """Write the code, and make room for all of its lines."""
+        code = self.code
+        self.code_area.value, self.code_area.rows = code, len(code.splitlines())
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
         """Show the widget, or a sentence where there are no widgets."""
