@@ -126,6 +126,7 @@ class Panel:
         self._moves = 0
         self._timers: list[asyncio.TimerHandle] = []
         self._ignores_sliders = self._will_follow = self._shows_rough = False
+        self._writes_numbers = False
         self._made_in = _running_loop(), threading.get_ident()
         self.figure = Figure(figsize=size, dpi=dpi, layout="constrained")
         FigureCanvasAgg(self.figure)
@@ -146,6 +147,10 @@ class Panel:
         self.sliders = {n: c.widget(self.start[n]) for n, c in self.controls.items()}
         for slider in self.sliders.values():
             slider.observe(lambda _: self._slider_moved(), names="value")
+        fields = {n: c.field(self.start[n]) for n, c in self.controls.items()}
+        self.fields = {n: field for n, field in fields.items() if field is not None}
+        for name, field in self.fields.items():
+            field.observe(lambda change, name=name: self._typed(name, change.new), names="value")
         beside = widgets.Layout(flex="0 0 auto", margin="0 0 0 2px")
         self._asides = {
             n: widgets.Label(layout=beside) for n, c in self.controls.items() if c.aside
@@ -200,6 +205,8 @@ class Panel:
         """Return a control and what stands beside it."""
         control, slider = self.controls[name], self.sliders[name]
         row = [slider]
+        if name in self.fields:
+            row.append(self.fields[name])
         if name in self._asides:
             row.append(self._asides[name])
         if control.plays:
@@ -275,10 +282,32 @@ class Panel:
             self._will_follow = True
             loop.call_soon_threadsafe(self._follow)
 
+    def _typed(self, name: str, text: str) -> None:
+        """Move a slider to the number typed beside it, or refuse it in words."""
+        if self._writes_numbers:
+            return
+        control, slider = self.controls[name], self.sliders[name]
+        try:
+            displayed = control.displayed_value(control.read(text))
+        except InputError as error:
+            self._await_nothing()
+            self._show_error(error)
+            return
+        if displayed == slider.value:
+            self._slider_moved()
+        slider.value = displayed
+
+    def _write_numbers(self, values: Mapping[str, Any]) -> None:
+        self._writes_numbers = True
+        for name, field in self.fields.items():
+            field.value = self.controls[name].written(values[name])
+        self._writes_numbers = False
+
     def _follow(self) -> None:
         """Show what the controls say now: roughly if that is quicker, and exactly at rest."""
         self._will_follow = False
         loop, values = _running_loop(), self.values
+        self._write_numbers(values)
         before, self._last_values = self._last_values, values
         # Without a kernel whose messages have to be answered there is nobody to keep waiting.
         if loop is None or not self._rough or self._key(values) in self._results:
@@ -356,12 +385,16 @@ class Panel:
                 self._results.popitem(last=False)
         return solved
 
-    def _show(self, rough: bool = False) -> None:
-        """Compute, draw, say; an error is said instead, and the picture stays as it was."""
+    def _await_nothing(self) -> None:
+        """Let nothing that is being computed be shown any more."""
         self._moves += 1
         for timer in self._timers:
             timer.cancel()
         self._timers = []
+
+    def _show(self, rough: bool = False) -> None:
+        """Compute, draw, say; an error is said instead, and the picture stays as it was."""
+        self._await_nothing()
         values = self.values
         try:
             case, result = self._solve(values, rough)
@@ -375,6 +408,7 @@ class Panel:
             self.case, self.summary, self.error = case, summary, None
             self._show_case(rough)
             self.remarks.value = _as_html(remarks)
+        self._write_numbers(values)
         for name, label in self._asides.items():
             label.value = self.controls[name].aside(values[name])
 
