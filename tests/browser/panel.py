@@ -117,10 +117,9 @@ class PanelOnPage:
         now = self.settled(f"now => now.error !== '' && {same} && now.width > 0")
         assert self.alert.inner_text().strip() == now["error"]
         assert self.alert.evaluate("alert => alert.closest('.rb-error') !== null")
-        picture, said = self.root.locator(".rb-picture").bounding_box(), self.alert.bounding_box()
-        assert said["height"] > 10 and said["y"] >= picture["y"] + picture["height"] - 1, (
-            "the words stand below the picture"
-        )
+        buttons, said = self.button("Paper case").bounding_box(), self.alert.bounding_box()
+        below = said["y"] - (buttons["y"] + buttons["height"])
+        assert said["height"] > 10 and 0 <= below < 30, "the words stand below the buttons"
         return now
 
     # ---- its controls
@@ -203,7 +202,7 @@ class PanelOnPage:
         sliders, lists = self.sliders.all(), self.lists.all()
         shown = self.root.locator(
             ".rb-side .widget-inline-hbox:has(.widget-label)"
-            ":not(.widget-label, .rb-number, .widget-textarea)"
+            ":not(.widget-label, .rb-number, .widget-textarea, .widget-html)"
         ).count()
         assert len(sliders) + len(lists) == shown > 0, (
             "a control that is neither a slider nor a list"

@@ -62,8 +62,9 @@ def test_a_case_of_ones_own_is_written_out_where_it_is_far_from_the_papers():
 def test_the_code_opens_below_its_button_as_tall_as_it_is(all_panels):
     panel = all_panels["deck_response"]
     side = next(w for w in panel.widget.children[0].children if "rb-side" in w._dom_classes)
-    buttons, area = side.children[-2:]
+    buttons, refusal, area = side.children[-3:]
     assert panel.code_button in buttons.children and area is panel.code_area
+    assert refusal is panel.trouble
     panel.code_button.click()
     assert area.layout.display != "none"
     assert area.rows == len(area.value.splitlines())

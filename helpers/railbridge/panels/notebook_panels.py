@@ -498,8 +498,8 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
         remarks=_of_last,
         code="run = case.run().at({iteration})\nrb.plots.displacement(run, x={x})\n"
         f"{_FORCES_CODE}{_SAG_CODE}",
-        size=(11.0, 6.0),
-        heights=[1.35, 1.2, 1.0],
+        size=(11.0, 5.6),
+        heights=[1.45, 1.2, 1.0],
         rough=True,
         dpi=dpi,
         behind={

@@ -188,14 +188,12 @@ class Panel:
         wrapped = widgets.Layout(flex_flow="row wrap")
         buttons = widgets.HBox([self.paper_button, self.code_button], layout=wrapped)
         side_layout = widgets.Layout(flex="1 1 24em", min_width="0")
-        side = widgets.VBox([controls, buttons, self.code_area], layout=side_layout)
+        side = widgets.VBox([controls, buttons, self.trouble, self.code_area], layout=side_layout)
         width = self.figure.get_figwidth() * DPI
         main_layout = widgets.Layout(
             flex=f"6 1 {0.82 * width:.0f}px", min_width="0", max_width=f"{width:.0f}px"
         )
-        main = widgets.VBox(
-            [self.image, self.words, self.remarks, self.trouble], layout=main_layout
-        )
+        main = widgets.VBox([self.image, self.words, self.remarks], layout=main_layout)
         side.add_class("rb-side")
         main.add_class("rb-main")
         wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="4px 1em")
@@ -290,7 +288,7 @@ class Panel:
         try:
             displayed = control.displayed_value(control.read(text))
         except InputError as error:
-            self._await_nothing()
+            self._stop()
             self._show_error(error)
             return
         if displayed == slider.value:
@@ -385,8 +383,8 @@ class Panel:
                 self._results.popitem(last=False)
         return solved
 
-    def _await_nothing(self) -> None:
-        """Let nothing that is being computed be shown any more."""
+    def _stop(self) -> None:
+        """Give up what is being computed for where the controls stood, and what is to come."""
         self._moves += 1
         for timer in self._timers:
             timer.cancel()
@@ -394,7 +392,7 @@ class Panel:
 
     def _show(self, rough: bool = False) -> None:
         """Compute, draw, say; an error is said instead, and the picture stays as it was."""
-        self._await_nothing()
+        self._stop()
         values = self.values
         try:
             case, result = self._solve(values, rough)
