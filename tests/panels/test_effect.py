@@ -217,3 +217,13 @@ def test_the_forces_are_named_at_iteration_0_too(all_panels):
     assert "largest extra wheel force" in panel.summary
     assert "kN; rigid-deck forces; forcing" in panel.summary
     panel.reset()
+
+
+def test_the_explorer_keeps_no_forces_of_single_wheels(all_panels):
+    """They are ten times as much as what is shown of them."""
+    panel = all_panels["overview"].set(iteration=2)
+    for _, story in panel._results.values():
+        assert "wheel_forces" not in vars(story.stages[2])
+        (forces, _), samples = story.axles(2), len(story.stages[2].time)
+        assert forces.shape == (8, samples) and forces.dtype == np.float32
+    panel.reset()

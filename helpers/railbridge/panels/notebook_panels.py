@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from ..cases.definition import case as load_case
 from ..decks import Deck, rayleigh
 from ..errors import Remark
 from ..plots.forces import car_components, mark_instant
-from ..plots.scene import arrow_force, comfortable_exaggeration, crossing_at
+from ..plots.scene import arrow_force, axle_forces, comfortable_exaggeration, crossing_at
 from ..plots.speeds import force_over_speed, frequency_met, speeds_in_step
 from ..plots.style import mode_in_words
 from ..results import Crossing
@@ -151,6 +152,25 @@ def _change_from_nothing(stages: Stages, i: int) -> str:
     return f"{_NOTHING}: it changes by {change:.1f} kN"
 
 
+class _Story(NamedTuple):
+    """What the explorer shows: a run by iteration, and forces by iteration, as they are asked for.
+
+    A run would keep the forces of all of its wheels, ten times as much.
+    """
+
+    stages: Stages
+    forces: dict[int, tuple[np.ndarray, float]]
+
+    def axles(self, i: int) -> tuple[np.ndarray, float]:
+        """Return the forces of the axles over time, and the largest extra force of a wheel, N."""
+        if i not in self.forces:
+            run = replace(self.stages[i])  # forgotten below, with the forces of its wheels
+            at_rest = np.array([wheel.static_load for wheel in run.train.wheels])
+            extra = float((-run.wheel_forces[:, 1].min(axis=1) - at_rest).max())
+            self.forces[i] = axle_forces(run).astype(np.float32), extra
+        return self.forces[i]
+
+
 def _iteration_in_words(stages: Stages, case: Case, values: Values) -> str:
     """Say the displacement, and how far it has settled."""
     i, last = values["iteration"], stages[max(stages)]
@@ -164,13 +184,11 @@ def _iteration_in_words(stages: Stages, case: Case, values: Values) -> str:
     return f"{_sag_in_words(stages, case, values, ', fixed number of iterations')}{change}."
 
 
-def _story_in_words(stages: Stages, case: Case, values: Values) -> str:
+def _story_in_words(story: _Story, case: Case, values: Values) -> str:
     """Say displacement and forces to someone who has not met Eq. 3."""
-    i, last = values["iteration"], stages[max(stages)]
-    run = stages[i]
-    at_rest = np.array([wheel.static_load for wheel in run.train.wheels])
-    extra = float((-run.wheel_forces[:, 1] - at_rest[:, None]).max()) / 1e3
-    bounce = float(np.abs(_bounce(run)).max()) / 1e3
+    i, stages = values["iteration"], story.stages
+    last, extra = stages[max(stages)], story.axles(i)[1] / 1e3
+    bounce = float(np.abs(_bounce(stages[i])).max()) / 1e3
     force = f"largest extra wheel force {extra:.1f} kN; bounce force of car 1 (its wheels "
     force += f"together, without its weight) up to {bounce:.1f} kN"
     change = "; rigid-deck forces"
@@ -468,20 +486,23 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
     reach = int(np.ceil((base.deck.length + base.train.length) / 10)) * 10
     scales: dict[str, float] = {}  # of the sketch at the start: it never magnifies more
 
-    def draw(axes, case, stages, values):
-        x, run = case.points[0], stages[values["iteration"]]
-        now = values["place"] / values["speed"]
+    def compute(case, progress):
+        return _Story(_by_iteration(case, progress), {})
+
+    def draw(axes, case, story, values):
+        x, stages, now = case.points[0], story.stages, values["place"] / values["speed"]
+        run, (forces, _) = stages[values["iteration"]], story.axles(values["iteration"])
         if not scales:
-            scales.update(exaggeration=comfortable_exaggeration(run), force=arrow_force(run))
-        crossing_at(run, values["place"], axes["train"], **scales)
+            scales.update(exaggeration=comfortable_exaggeration(run), force=arrow_force(forces))
+        crossing_at(run, values["place"], axes["train"], forces=forces, **scales)
         car_components(run, (axes["forces"], axes["moments"]), now=now)
         plots.displacement(run, x, axes["displacement"])
         mark_instant(axes["displacement"], now)
         plots.spectrum(run, axes["spectrum"], mark={"forcing": _forcing(values)}, most=30.0)
         _draw_deviations(axes["deviations"], stages)
 
-    def say(case, stages, values):
-        return _story_in_words(stages, case, values)
+    def say(case, story, values):
+        return _story_in_words(story, case, values)
 
     place = Control("place", "first axle (m)", (), 0, reach, 1, start=min(100, reach), plays=True)
     return Panel(
@@ -494,8 +515,8 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
         ],
         draw,
         say,
-        compute=_by_iteration,
-        remarks=_of_last,
+        compute=compute,
+        remarks=lambda case, story: _of_last(case, story.stages),
         code="run = case.run().at({iteration})\nrb.plots.displacement(run, x={x})\n"
         f"{_FORCES_CODE}{_SAG_CODE}",
         size=(11.0, 5.6),

@@ -15,7 +15,7 @@ from .drawing import PLACE_LABEL, axes_or_new, curve, label_axes, note, round_do
 from .outlines import Heights, TrainOutline, train_outline
 from .style import DECK_COLOUR, GREY, literal, style_of
 
-__all__ = ["arrow_force", "comfortable_exaggeration", "crossing_at", "train_on_deck"]
+__all__ = ["arrow_force", "axle_forces", "comfortable_exaggeration", "crossing_at", "train_on_deck"]
 
 _DRAWN, _ROOM = 2.5, 4.0  # m, deck and waves together as drawn, and what they may grow to
 _DEPTH = 0.45  # m, of the deck below the rail as drawn
@@ -82,9 +82,16 @@ def _exaggeration(run: Crossing, room: float) -> float:
     return round_down(room / largest) if largest > 0 else 1.0
 
 
-def arrow_force(run: Crossing) -> float:
-    """Return the force (N) of an axle that a sketch can draw as an arrow of full length."""
-    return round_up(float(np.abs(_axle_forces(run)).max()) / _LONGEST)
+def arrow_force(forces: np.ndarray) -> float:
+    """Return the force (N) that a sketch of some forces draws as an arrow of full length."""
+    return round_up(float(np.abs(forces).max()) / _LONGEST)
+
+
+def axle_forces(run: Crossing) -> np.ndarray:
+    """Return the downward force of each axle on the rail, N, shape (axles, n)."""
+    counts = [len(axle.wheels) for axle in run.train.placed_axles]
+    first = np.cumsum([0, *counts[:-1]])
+    return -np.add.reduceat(run.wheel_forces[:, 1], first, axis=0)
 
 
 def crossing_at(
@@ -93,6 +100,7 @@ def crossing_at(
     ax: Axes | None = None,
     exaggeration: float | None = None,
     force: float = 0.0,
+    forces: np.ndarray | None = None,
 ) -> Axes:
     """Sketch the train on the deforming deck when the first axle is at a place.
 
@@ -110,6 +118,8 @@ def crossing_at(
         `comfortable_exaggeration` returns.
     force : float
         At least so large is the force (N) of an arrow of full length.
+    forces : ndarray, shape (axles, n), optional
+        What `axle_forces` returns, if it is known.
 
     Returns
     -------
@@ -122,7 +132,8 @@ def crossing_at(
     position = errors.number("position", position, unit="m")
     sample = round(position / run.settings.speed / run.settings.time_step)
     sample = int(np.clip(sample, 0, len(run.time) - 1))
-    factor, full = comfortable_exaggeration(run), max(force, arrow_force(run))
+    forces = axle_forces(run) if forces is None else forces
+    factor, full = comfortable_exaggeration(run), max(force, arrow_force(forces))
     if exaggeration is not None:
         factor = min(exaggeration, _exaggeration(run, _ROOM))
     along = np.linspace(0.0, deck.length, 49)
@@ -145,7 +156,7 @@ def crossing_at(
     curve(ax, "cars", *paths["cars"], color=_TRAIN, lw=1.6)
     at_rest = np.array([axle.static_load for axle in run.train.placed_axles])
     feet = rail(outline.wheels)
-    _draw_forces(ax, outline.wheels, feet, _axle_forces(run)[:, sample] / full, at_rest / full)
+    _draw_forces(ax, outline.wheels, feet, forces[:, sample] / full, at_rest / full)
     curve(ax, "scale of the forces", [start + 1.5] * 2, [-5.9, -5.9 - _ARROW], color=_TRAIN)
     text = f"force of an axle on the rail,\nthis long: {full / 1e3:g} kN (grey: at rest)"
     note(ax, "scale", text, 0.022, 0.02, va="bottom", color=_TRAIN, size=9)
@@ -167,13 +178,6 @@ def _ends(deck: Deck) -> tuple[float, float]:
 def _waves(run: Crossing, x: np.ndarray) -> np.ndarray:
     """Return the vertical irregularity of the left rail with its run-up, m."""
     return FadeIn(run.track.rail("vertical", "left"), run.settings.lead_in).value(x)
-
-
-def _axle_forces(run: Crossing) -> np.ndarray:
-    """Return the downward force of each axle on the rail, N, shape (axles, n)."""
-    counts = [len(axle.wheels) for axle in run.train.placed_axles]
-    first = np.cumsum([0, *counts[:-1]])
-    return -np.add.reduceat(run.wheel_forces[:, 1], first, axis=0)
 
 
 def _draw_forces(
