@@ -510,8 +510,14 @@ def test_the_words_of_an_iteration_are_those_of_its_number(all_panels, name):
         words = f"deviation from the rigid deck {deviation:+.3f} % (Eq. 3), change of this "
         words += f"iteration {change:.1e}."
     else:
-        words = f"the force of car 1 differs from that on a rigid deck by {deviation:+.1f} % "
-        words += f"(Eq. 3); the wheel forces changed by {100 * change:.2g} % in this iteration; "
+        stage = run.at(2)
+        bounce = np.abs(stage.car_forces(1, static=False)["force_z"]).max()
+        at_rest = np.array([wheel.static_load for wheel in run.train.wheels])
+        extra = (-stage.wheel_forces[:, 1] - at_rest[:, None]).max()
+        words = f"largest extra wheel force {extra / 1e3:.1f} kN; "
+        words += "bounce force of car 1 (its wheels together, without its weight) up to "
+        words += f"{bounce / 1e3:.1f} kN, {deviation:+.1f} % against a rigid deck (Eq. 3); "
+        words += f"the wheel forces changed by {100 * change:.2g} % in this iteration; "
         words += "forcing 2.083 Hz."
     assert words in panel.summary
     assert "rigid-deck forces" in panel.set(iteration=0).summary
@@ -519,15 +525,15 @@ def test_the_words_of_an_iteration_are_those_of_its_number(all_panels, name):
 
 
 def test_each_picture_shows_the_frequencies_of_its_subject(all_panels):
-    for name, values in (
-        ("deck_modes", lambda case: case.deck.frequencies_hz),
-        ("irregularities", lambda case: case.train.vehicles[0].modes().frequencies_hz),
-    ):
-        panel = all_panels[name]
-        lines = {line.get_gid(): line for line in panel._axes["frequencies"].lines}
-        shown = lines["natural"].get_xdata()[::3]
-        assert np.allclose(shown, values(panel.case)[: len(shown)]), name
-        assert np.allclose(lines["line at forcing"].get_xdata(), 20.0 / 14.4)
+    deck, car = (all_panels[name] for name in ("deck_modes", "irregularities"))
+    upright = {line.get_gid(): line.get_xdata() for line in deck._axes["frequencies"].lines}
+    level = {line.get_gid(): line.get_ydata() for line in car._axes["frequencies"].lines}
+    shown = upright["natural"][::3]
+    assert np.allclose(shown, deck.case.deck.frequencies_hz[: len(shown)])
+    frequencies = car.case.train.vehicles[0].modes().frequencies_hz
+    assert np.allclose(level["natural"][::3], frequencies)
+    assert np.allclose(upright["line at forcing"], 20.0 / 14.4)
+    assert np.allclose(level["now"], 20.0 / 14.4)
 
 
 def test_a_value_seen_before_is_not_computed_again():

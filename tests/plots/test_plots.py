@@ -386,22 +386,65 @@ def test_spectra_convergence_and_damping_are_drawn_as_computed(run):
         assert np.allclose(shown, 100 * (a / (4 * np.pi * f) + b * np.pi * f))
 
 
-def test_the_train_rides_on_the_deck_as_it_is_drawn(run):
+def sketch(run, position, **scales):
+    ax = crossing_at(run, position, plt.figure().add_subplot(), **scales)
+    words = " ".join(text.get_text() for text in ax.texts)
+    return {line.get_gid(): line.get_data() for line in ax.lines}, words
+
+
+def test_the_train_rides_on_the_waves_and_on_the_deck_as_they_are_drawn(run):
     """On the rail before and behind, on the bent deck between, at the places of its wheels."""
-    ax = crossing_at(run, 60.0, plt.figure().add_subplot())
-    drawn = {line.get_gid(): line.get_data() for line in ax.lines}
+    drawn, words = sketch(run, 60.0)
+    factor = float(re.search(r"drawn (\S+) times", words)[1])
     x, z = drawn["wheels"]
     assert np.allclose(np.sort(x), np.sort([60.0 - a.delay for a in run.train.placed_axles]))
     off = (x < 0.0) | (x > 36.0)
     assert off.any() and not off.all()
-    assert np.allclose(z[off], 0.35)
+    waves = factor * 5e-3 * np.sin(2 * np.pi * x / 14.4)
+    assert np.abs(waves).max() > 0.3, "they can be seen"
+    assert np.allclose(z[off], waves[off] + 0.35)
     along, deck = drawn["deck"]
-    assert np.allclose(z[~off], np.interp(x[~off], along, deck + 0.45) + 0.35)
-    factor = float(re.search(r"drawn (\S+) times", " ".join(t.get_text() for t in ax.texts))[1])
+    low = deck[0]
+    assert np.allclose(z[~off], np.interp(x[~off], along, deck - low) + waves[~off] + 0.35)
     sample = round(60.0 / 20.0 / run.settings.time_step)
     shown = [run.displacement(place, kept_only=True) for place in along]
     known = [history["displacement_z"][sample] for history in shown]
-    assert np.allclose(deck + 0.45, factor * np.array(known), atol=1e-9)
+    assert np.allclose(deck - low, factor * np.array(known), atol=1e-9)
+    x, rail = drawn["rail"]
+    assert np.allclose(np.interp(drawn["wheels"][0], x, rail), z - 0.35, atol=0.02)
+
+
+def test_the_rail_is_level_before_its_run_up(case):
+    run = case.replace({"run.lead_in": 20.0}).compute()
+    x, rail = sketch(run, 30.0)[0]["rail"]
+    assert not rail[x < -20.0].any() and rail[x > -10.0].any()
+
+
+def test_arrows_are_as_long_as_the_forces_of_the_axles(run):
+    drawn, words = sketch(run, 60.0)
+    x, y = drawn["forces"]
+    sample = round(60.0 / 20.0 / run.settings.time_step)
+    force = -run.wheel_forces[:, 1, sample].reshape(-1, 2).sum(axis=1)
+    assert np.allclose(x[::3], [60.0 - axle.delay for axle in run.train.placed_axles])
+    length = y[::3] - y[1::3]
+    assert np.allclose(length / length[0], force / force[0])
+    assert np.ptp(force) > 0.1 * force.mean()
+    scale = float(re.search(r"this long: (\S+) kN", words)[1])
+    (low, high) = sorted(drawn["scale of the forces"][1])
+    assert force[0] / length[0] == pytest.approx(1e3 * scale / (high - low))
+    rest = drawn["forces at rest"][1]
+    assert np.allclose((y[0] - rest[0]) / length[0], 146.44e3 / force[0], rtol=1e-3)
+
+
+def test_the_scales_of_the_sketch_stay_while_there_is_room(run, case):
+    _, words = sketch(run, 60.0, exaggeration=50.0, force=500e3)
+    assert "drawn 50 times" in words and "this long: 500 kN" in words
+    deep = case.replace({"track.vertical.amplitude": 10e-3}).compute()
+    assert "drawn 100 times" in sketch(deep, 60.0)[1]
+    assert "drawn 200 times" in sketch(deep, 60.0, exaggeration=200.0)[1]
+    deep = case.replace({"track.vertical.amplitude": 30e-3}).compute()
+    _, words = sketch(deep, 60.0, exaggeration=200.0, force=1e3)
+    assert "drawn 50 times" in words and "this long: 250 kN" in words
 
 
 TRACK = rb.Track(
