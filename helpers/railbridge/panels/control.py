@@ -98,13 +98,12 @@ class Control:
             return widgets.IntSlider(value, readout_format="d", **options)
         return widgets.FloatSlider(value, readout_format=".1f" if step >= 0.1 else ".3f", **options)
 
-    def player(self, slider: widgets.Widget) -> widgets.Widget:
-        """Make the buttons that let a slider run by itself, in the browser."""
+    def player(self, slider: widgets.Widget) -> tuple[widgets.Widget, widgets.Widget]:
+        """Make the buttons that let a slider run by itself in the browser, and the link to it."""
         layout = widgets.Layout(flex="0 0 auto", width="5.5em")
         options = {"min": self.low, "max": self.high, "step": 2 * self.step, "interval": 100}
         play = widgets.Play(slider.value, show_repeat=False, layout=layout, **options)
-        widgets.jslink((play, "value"), (slider, "value"))
-        return play
+        return play, widgets.jslink((play, "value"), (slider, "value"))
 
     def si_value(self, displayed: Any) -> Any:
         """Return the SI value of what the widget displays."""

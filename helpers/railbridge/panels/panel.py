@@ -28,12 +28,14 @@ from ..plots.picture import Picture
 from ..results import Crossing
 from ..settings import default_time_step
 from .control import Control, change_at, for_case
+from .standing import stands_here
 
 __all__ = ["DPI", "FALLBACK", "Panel"]
 
 FALLBACK = (
     "Interactive panel: open this notebook in JupyterLab and run this cell to move its sliders."
 )
+CLOSED = "This panel is closed: its cell was run again, and what it made then has replaced it."
 DPI = 100
 REST = 0.3  # s without a move, after which the exact crossing is computed
 ROUGH_STEP = 8e-3  # s, at most, while a control is moved
@@ -114,9 +116,10 @@ class Panel:
         self._remarks = remarks or _usual_remarks
         self._code_line, self._rough = code, rough
         self._results: OrderedDict[tuple, tuple[Case, Any]] = OrderedDict()
+        self._links: list[widgets.Widget] = []
         self._moves = 0
         self._timers: list[asyncio.TimerHandle] = []
-        self._ignores_sliders = self._will_follow = self._shows_rough = False
+        self._ignores_sliders = self._will_follow = self._shows_rough = self._closed = False
         self._made_in = _running_loop(), threading.get_ident()
         self.figure = Figure(figsize=size, dpi=dpi, layout="constrained")
         FigureCanvasAgg(self.figure)
@@ -128,6 +131,7 @@ class Panel:
         reuse_artists(self.figure)
         self._show()
         self._last_values = values
+        stands_here(self)
 
     # ---- widgets
 
@@ -192,7 +196,9 @@ class Panel:
         if name in self._asides:
             row.append(self._asides[name])
         if control.plays:
-            row.append(control.player(slider))
+            player, link = control.player(slider)
+            row.append(player)
+            self._links.append(link)
         return row
 
     # ---- what users ask
@@ -228,7 +234,10 @@ class Panel:
         InputError
             An unknown control or a value out of range, before anything moves; or what the case says
             to the values.
+        RuntimeError
+            The panel is closed.
         """
+        self._refuse_if_closed()
         for name in values:
             errors.choice("control", name, self.controls)
         self._move({n: self.controls[n].check(v) for n, v in values.items()}, self._show)
@@ -238,7 +247,30 @@ class Panel:
 
     def reset(self) -> Panel:
         """Put all controls back to where they started, as *Paper case* does."""
+        self._refuse_if_closed()
         return self.set(**self.start)
+
+    def close(self) -> None:
+        """Free all that the panel holds: its widgets, its picture, its results and its case.
+
+        A panel whose cell is run again closes by itself, where no other cell shows it. What the
+        notebook keeps of it in ``Out`` is then empty.
+        """
+        if self._closed:
+            return
+        self._stop()
+        for widget in _with_parts([self.widget, *self._links]):
+            widget.unobserve_all()
+            widget.close()
+        vars(self).clear()
+        self._closed = True
+
+    def _refuse_if_closed(self) -> None:
+        if self._closed:
+            raise RuntimeError(CLOSED)
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(CLOSED if vars(self).get("_closed") else f"a panel has no {name}")
 
     # ---- following a hand
 
@@ -269,6 +301,8 @@ class Panel:
     def _follow(self) -> None:
         """Show what the controls say now: roughly if that is quicker, and exactly at rest."""
         self._will_follow = False
+        if self._closed:
+            return None
         loop, values = _running_loop(), self.values
         before, self._last_values = self._last_values, values
         # Without a kernel whose messages have to be answered there is nobody to keep waiting.
@@ -304,7 +338,7 @@ class Panel:
         move = self._moves
 
         def stop_if_stale(_: str = "") -> None:
-            if move != self._moves:
+            if self._closed or move != self._moves:
                 raise _StaleError
 
         def work() -> None:
@@ -316,7 +350,7 @@ class Panel:
 
         def done(task: asyncio.Future) -> None:
             stale = task.cancelled() or isinstance(task.exception(), _StaleError)
-            if not (rough or stale) and move == self._moves:
+            if not (rough or stale or self._closed) and move == self._moves:
                 self._show()  # from the results kept; what went wrong goes wrong again, and is said
 
         loop.run_in_executor(None, work).add_done_callback(done)
@@ -347,12 +381,16 @@ class Panel:
                 self._results.popitem(last=False)
         return solved
 
-    def _show(self, rough: bool = False) -> None:
-        """Compute, draw, say; an error is said instead, and the picture stays as it was."""
+    def _stop(self) -> None:
+        """Give up what is being computed for where the controls stood, and what is to come."""
         self._moves += 1
         for timer in self._timers:
             timer.cancel()
         self._timers = []
+
+    def _show(self, rough: bool = False) -> None:
+        """Compute, draw, say; an error is said instead, and the picture stays as it was."""
+        self._stop()
         values = self.values
         try:
             case, result = self._solve(values, rough)
@@ -404,6 +442,9 @@ class Panel:
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
         """Show the widget, or a sentence where there are no widgets."""
+        if self._closed:
+            return {"text/plain": CLOSED}
+        stands_here(self)
         bundle = self.widget._repr_mimebundle_(include=include, exclude=exclude) or {}
         return {**bundle, "text/plain": FALLBACK}
 
@@ -436,6 +477,20 @@ def _as_html(remarks: Sequence[Remark]) -> str:
     rest = [f"And {more} more; see the remarks of the summary."] if more > 0 else []
     words = "<br>".join(lines[:REMARKS_SHOWN] + rest)
     return f'<div role="note" style="{_NOTE}">{words}</div>'
+
+
+def _with_parts(roots: Sequence[widgets.Widget]) -> list[widgets.Widget]:
+    """Return widgets with all that belongs to them: what stands in them, layouts, styles."""
+    found: dict[widgets.Widget, None] = {}
+    waiting = list(roots)
+    while waiting:
+        widget = waiting.pop()
+        if widget not in found:
+            found[widget] = None
+            values = [getattr(widget, key) for key in widget.keys]
+            values += [part for value in values if isinstance(value, tuple) for part in value]
+            waiting += [value for value in values if isinstance(value, widgets.Widget)]
+    return list(found)
 
 
 def _button(label: str, tooltip: str) -> widgets.Button:
