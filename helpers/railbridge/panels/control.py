@@ -14,8 +14,6 @@ from ..errors import InputError
 
 __all__ = ["Control", "change_at", "for_case"]
 
-_LABEL_WIDTH = "8.2em"  # room for the longest label: what does not fit is cut
-
 
 @dataclass(frozen=True)
 class Control:
@@ -87,9 +85,7 @@ class Control:
 
     def widget(self, value: Any) -> widgets.Widget:
         """Make the slider or list, displaying a value given in SI units."""
-        layout = widgets.Layout(flex="1 1 21em", min_width="0")
-        style = {"description_width": _LABEL_WIDTH}
-        options = {"description": self.label, "style": style, "layout": layout}
+        options = {"description": self.label}
         if self.choices:
             return widgets.Dropdown(options=self.choices, value=value, **options)
         value, low, high, step = map(self.displayed_value, (value, self.low, self.high, self.step))
@@ -100,9 +96,8 @@ class Control:
 
     def player(self, slider: widgets.Widget) -> tuple[widgets.Widget, widgets.Widget]:
         """Make the buttons that let a slider run by itself in the browser, and the link to it."""
-        layout = widgets.Layout(flex="0 0 auto", width="5.5em")
         options = {"min": self.low, "max": self.high, "step": 2 * self.step, "interval": 100}
-        play = widgets.Play(slider.value, show_repeat=False, layout=layout, **options)
+        play = widgets.Play(slider.value, show_repeat=False, **options)
         return play, widgets.jslink((play, "value"), (slider, "value"))
 
     def si_value(self, displayed: Any) -> Any:

@@ -28,6 +28,7 @@ from ..plots.picture import Picture
 from ..results import Crossing
 from ..settings import default_time_step
 from .control import Control, change_at, for_case
+from .looks import class_of, looks
 from .standing import stands_here
 
 __all__ = ["DPI", "FALLBACK", "Panel"]
@@ -139,10 +140,7 @@ class Panel:
         self.sliders = {n: c.widget(self.start[n]) for n, c in self.controls.items()}
         for slider in self.sliders.values():
             slider.observe(lambda _: self._slider_moved(), names="value")
-        beside = widgets.Layout(flex="0 0 auto", margin="0 0 0 2px")
-        self._asides = {
-            n: widgets.Label(layout=beside) for n, c in self.controls.items() if c.aside
-        }
+        self._asides = {n: widgets.Label() for n, c in self.controls.items() if c.aside}
         # As a data URL: from a blob's URL, which the widget would make of plain bytes, a browser
         # shows it 15 ms later.
         self.image = widgets.Image(format="url", layout=widgets.Layout(width="100%"))
@@ -166,28 +164,16 @@ class Panel:
             widget.add_class(f"rb-{name}")
 
     def _arranged(self) -> widgets.Widget:
-        """Return everything in its place: controls beside the picture or, if narrow, above it."""
-        row = widgets.Layout(
-            flex="1 1 28em", max_width="40em", flex_flow="row wrap", align_items="center"
-        )
-        rows = [widgets.HBox(self._row(name), layout=row) for name in self.controls]
-        wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="0 1em")
-        controls = widgets.HBox(rows, layout=wrapped)
-        wrapped = widgets.Layout(flex_flow="row wrap")
-        buttons = widgets.HBox([self.paper_button, self.code_button], layout=wrapped)
-        side_layout = widgets.Layout(flex="1 1 24em", min_width="0")
-        side = widgets.VBox([controls, buttons], layout=side_layout)
-        width = self.figure.get_figwidth() * DPI
-        main_layout = widgets.Layout(
-            flex=f"6 1 {0.82 * width:.0f}px", min_width="0", max_width=f"{width:.0f}px"
-        )
-        main = widgets.VBox(
-            [self.image, self.words, self.remarks, self.trouble], layout=main_layout
-        )
-        side.add_class("rb-side")
-        main.add_class("rb-main")
-        wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="4px 1em")
-        return widgets.VBox([widgets.HBox([side, main], layout=wrapped), self.code_area])
+        """Return everything in its place; `looks` says where that is in a page."""
+        controls = _box("controls", [_box("control", self._row(name)) for name in self.controls])
+        buttons = _box("buttons", [self.paper_button, self.code_button])
+        side = _box("side", [controls, buttons], widgets.VBox)
+        words = [self.words, self.remarks, self.trouble]
+        main = _box("main", [self.image, *words], widgets.VBox)
+        both = _box("both", [side, main])
+        size = tuple(DPI * self.figure.get_size_inches())
+        both.add_class(class_of(*size))
+        return widgets.VBox([both, self.code_area, looks(*size)])
 
     def _row(self, name: str) -> list[widgets.Widget]:
         """Return a control and what stands beside it."""
@@ -491,6 +477,15 @@ def _with_parts(roots: Sequence[widgets.Widget]) -> list[widgets.Widget]:
             values += [part for value in values if isinstance(value, tuple) for part in value]
             waiting += [value for value in values if isinstance(value, widgets.Widget)]
     return list(found)
+
+
+def _box(
+    name: str, parts: Sequence[widgets.Widget], kind: type[widgets.Box] = widgets.HBox
+) -> widgets.Box:
+    """Put parts into a box of the class ``rb-`` and its name."""
+    box = kind(parts)
+    box.add_class(f"rb-{name}")
+    return box
 
 
 def _button(label: str, tooltip: str) -> widgets.Button:
