@@ -235,6 +235,26 @@ def test_a_crossing_that_is_refused_says_why(visited, notebook, panel):
     assert notebook.complaints() == visited.complaints() == []
 
 
+@of("06_fixed_point_iteration")
+def test_two_panels_on_a_page_keep_their_own_layout(visited, notebook, panel, start):
+    notebook.run_new_cell(
+        panel.root, lambda: panel.page.keyboard.insert_text("rb.panels.overview()")
+    )
+    other = panel.page.locator(".rb-panel").nth(1)
+    PanelOnPage(other).begun()
+    try:
+        visited.page.set_viewport_size({"width": 1366, "height": 768})
+        for root in (panel.root, other):
+            PanelOnPage(root).settled()
+            assert faults(root) == []
+        side, picture = (
+            panel.root.locator(part).bounding_box() for part in (".rb-side", ".rb-picture")
+        )
+        assert side["x"] + side["width"] <= picture["x"], "controls stand beside the picture"
+    finally:
+        visited.page.set_viewport_size(WINDOW)
+
+
 @of("00_start_here")
 def test_the_train_runs_by_itself(visited, notebook, panel, start):
     panel.try_player(panel.restored(start))
