@@ -9,15 +9,13 @@
       const label = control.querySelector(".widget-inline-hbox > .widget-label")?.textContent;
       if (!label) continue;
       control.querySelectorAll("[role=slider]").forEach(handle => call(handle, label));
-      control.querySelectorAll(".widget-readout").forEach(number => {
-        call(number, label + ", typed");
-        number.setAttribute("role", "textbox");
-      });
+      control.querySelectorAll(".rb-number input").forEach(number => call(number, label + ", typed"));
       for (const [icon, name] of Object.entries(icons))
         control.querySelectorAll(".widget-play button:has(." + icon + ")").forEach(button => call(button, name + ": " + label));
     }
     const picture = root.querySelector(".rb-picture");
     const image = picture?.matches("img") ? picture : picture?.querySelector("img");
+    root.querySelectorAll("textarea").forEach(code => call(code, "The code"));
     if (image) image.alt = "The picture; the words below it say what it shows";
   };
   nameAll();
