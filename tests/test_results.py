@@ -178,3 +178,20 @@ def test_what_is_no_name_of_a_history_is_refused(wrong):
     for ask in (history.__getitem__, history.extreme, history.extremes):
         with pytest.raises(rb.InputError, match="no such history"):
             ask(wrong)
+
+
+def test_a_car_moves_as_its_accelerations_say_and_the_deck_adds_to_it():
+    for run in (RUN, RUN.at(0)):
+        own = run.car_motion(2)
+        assert own.units["car z"] == "m" and own.units["car pitch"] == "rad"
+        twice = np.diff(own["car z"], 2) / run.settings.time_step**2
+        middle = run.body_accelerations[1, 1, 1, 1:-1]
+        assert twice == pytest.approx(middle, abs=0.02 * np.abs(middle).max())
+    added = RUN.car_motion(2)["car z"] - RUN.at(0).car_motion(2)["car z"]
+    entered = RUN.coupling.cars[1].window.start
+    assert not added[: entered + 1].any() and added.min() < -1e-3
+    bare = rb.cross(rb.AxleTrain([0.0], [1e5]), DECK, speed=20.0, time_step=2e-3)
+    with pytest.raises(rb.InputError, match="bare axle loads"):
+        bare.car_motion()
+    with pytest.raises(rb.InputError, match="car = 3"):
+        RUN.car_motion(3)

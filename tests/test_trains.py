@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import railbridge as rb
-from railbridge.trains import Passage
+from railbridge.trains import Passage, steady_motion
 
 CAR = rb.vehicle("xia2000")
 V = 20.0
@@ -342,3 +342,25 @@ def test_a_bogie_in_millimetres_is_blamed_itself():
     parameters = rb.car_parameters("xia2000") | {"axle_spacing": 2500.0}
     with pytest.raises(rb.InputError, match=r"^vehicle x: axle_spacing = 2500\.0: must be below"):
         rb.two_bogie_car("x", **parameters)
+
+
+def test_steady_motion_obeys_newton():
+    """What the wheels press on the deck is what the bodies' masses ask for."""
+    motion, s = steady_motion(CAR, waves(14.4), V), 2j * np.pi * V / 14.4
+    force = rb.steady_forces(CAR, waves(14.4), V)[:, 1].sum()
+    inertia = sum(body.mass * s**2 * motion[f"{body.name} z"] for body in CAR.bodies)
+    assert list(motion) == list(CAR.labels) and force == pytest.approx(-inertia)
+
+
+def test_motion_on_a_rigid_deck_settles_to_the_steady_one_and_gives_the_accelerations():
+    passage = Passage(V, 2e-3, 1500, 40 * V)
+    train = rb.Train(CAR, cars=2)
+    second = train.rigid_motion(waves(14.4), passage)[1]
+    assert second.shape == (15, 1, 1500)
+    place = V * 2e-3 * np.arange(1500) - train.centres[1]
+    for name, steady in steady_motion(CAR, waves(14.4), V).items():
+        exact = (steady * np.exp(2j * np.pi * place / 14.4)).imag
+        assert second[CAR.labels.index(name), 0] == pytest.approx(exact, abs=2e-5), name
+    bounce = second[CAR.labels.index("car z"), 0]
+    middle = train.rigid_accelerations(waves(14.4), passage)[1][1, 1]
+    assert np.diff(bounce, 2) / 2e-3**2 == pytest.approx(middle[1:-1], abs=5e-3)

@@ -422,3 +422,11 @@ def test_every_coach_of_an_articulated_train_is_a_car_body():
         ("front", 7.8), ("middle", 0.0), ("rear", -7.8),
     ]  # fmt: skip
     assert [b.name for b in rb.vehicle("sprung_mass").car_bodies] == ["mass"]
+
+
+def test_motion_of_a_mass_on_a_spring_is_the_textbook_s():
+    mass, k, c, f = 5e3, 1.2e6, 3e4, 2.0
+    car, s = rb.sprung_mass("m", mass, k, c), 2j * np.pi * f
+    assert car.motion(f).shape == (1, 1, 2)
+    assert car.motion(f)[0, 0, 1] == pytest.approx((c * s + k) / (mass * s**2 + c * s + k))
+    assert CAR.motion(0.0)[CAR.labels.index("car z"), :, 1].sum() == pytest.approx(1.0)

@@ -276,6 +276,26 @@ class Crossing:
             car[: len(own)] = own
         return frozen(result)
 
+    def car_motion(self, car: int = 1) -> History:
+        """Return the motion of every freedom of a car about its place at rest, m and rad.
+
+        Over the whole record, by names as in `Vehicle.labels` ("car z").
+
+        Raises
+        ------
+        InputError
+            No such car, or bare axle loads, which do not move.
+        """
+        own = self.train.car(car)
+        if own.vehicle is None:
+            raise InputError("car", car, "bare axle loads have no bodies that move")
+        motion = self.train.rigid_motion(self.track, self.settings.passage)[car - 1]
+        if self.iteration > 0:
+            motion = motion + self.coupling.motion(self._felt, self.coupling.cars[car - 1])
+        values = dict(zip(own.vehicle.labels, motion[:, 0], strict=True))
+        units = {name: "m" if name[-2:] in (" y", " z") else "rad" for name in values}
+        return History(self.time, values, units, f"car {car}")
+
     def car_forces(self, car: int = 1, at: str = "track", static: bool = True) -> History:
         """Return one car's wheel forces condensed to five components (Figures 9 to 11).
 

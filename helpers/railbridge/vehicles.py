@@ -463,6 +463,43 @@ class Vehicle:
 
         return body_accelerations
 
+    def sampled_motion(self, time_step: float) -> WheelResponse:
+        """Return what gives the motion of every freedom, m and rad, from ``k r + c r'``.
+
+        About the place at rest: shape (n, 1, samples) from shape (wheels, 2, samples), freedoms as
+        in `labels`.
+
+        Parameters
+        ----------
+        time_step : float
+            s.
+        """
+        count = len(self.labels)
+        respond = replace(self.system, c=np.eye(count, 2 * count)).sampled(time_step)
+
+        def motion(u: np.ndarray) -> np.ndarray:
+            return respond(u.reshape(-1, u.shape[-1]))[:, None]
+
+        return motion
+
+    def motion(self, frequency_hz: float) -> np.ndarray:
+        """Return the steady motion of every freedom for unit harmonic support motion.
+
+        Parameters
+        ----------
+        frequency_hz : float
+
+        Returns
+        -------
+        ndarray, shape (n, contacts, 2), complex
+            Motion (m or rad) of a freedom, as in `labels`, for 1 m at a contact and direction;
+            lateral before vertical.
+        """
+        rows, s, impedance = self._at_frequency(frequency_hz)
+        dynamic = self.mass_matrix * s**2 + self.damping_matrix * s + self.stiffness_matrix
+        motion = np.linalg.solve(dynamic, rows.T * impedance)
+        return motion.reshape(len(rows.T), len(rows) // 2, 2)
+
     def transfer(self, frequency_hz: float) -> np.ndarray:
         """Return the steady contact forces for unit harmonic support motion.
 
@@ -476,13 +513,16 @@ class Vehicle:
             Force on the deck (N) at a contact and direction for 1 m at another contact and
             direction; lateral before vertical.
         """
+        rows, _, impedance = self._at_frequency(frequency_hz)
+        through = rows @ self.motion(frequency_hz).reshape(rows.shape[::-1])
+        forces = impedance[:, None] * through - np.diag(impedance)
+        return forces.reshape((len(rows) // 2, 2) * 2)
+
+    def _at_frequency(self, frequency_hz: float) -> tuple[np.ndarray, complex, np.ndarray]:
+        """Return rows of the contacts' stretch, the exponent, and k + c s of every contact."""
         rows = self.contact_stretch.reshape(-1, len(self.labels))
         s = 2j * np.pi * errors.number("frequency_hz", frequency_hz, unit="Hz")
-        dynamic = self.mass_matrix * s**2 + self.damping_matrix * s + self.stiffness_matrix
-        impedance = (self.contact_stiffness + self.contact_damping * s).ravel()
-        through = rows @ np.linalg.solve(dynamic, rows.T)
-        forces = impedance[:, None] * through * impedance - np.diag(impedance)
-        return forces.reshape((len(rows) // 2, 2) * 2)
+        return rows, s, (self.contact_stiffness + self.contact_damping * s).ravel()
 
     # ---- modes
 

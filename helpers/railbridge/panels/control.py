@@ -14,8 +14,6 @@ from ..errors import InputError
 
 __all__ = ["Control", "change_at", "for_case"]
 
-_LABEL_WIDTH = "8.2em"  # room for the longest label: what does not fit is cut
-
 
 @dataclass(frozen=True)
 class Control:
@@ -87,9 +85,7 @@ class Control:
 
     def widget(self, value: Any) -> widgets.Widget:
         """Make the slider or list, displaying a value given in SI units."""
-        layout = widgets.Layout(flex="1 1 21em", min_width="0")
-        style = {"description_width": _LABEL_WIDTH}
-        options = {"description": self.label, "style": style, "layout": layout}
+        options = {"description": self.label}
         if self.choices:
             return widgets.Dropdown(options=self.choices, value=value, **options)
         value, low, high, step = map(self.displayed_value, (value, self.low, self.high, self.step))
@@ -103,7 +99,7 @@ class Control:
         """
         if self.choices:
             return None
-        layout = widgets.Layout(flex="0 0 auto", width="4.8em", margin="2px 4px")
+        layout = widgets.Layout(flex="0 0 auto", width="4.8em")
         options = {"continuous_update": False, "tooltip": f"{self.label}, typed", "layout": layout}
         field = widgets.Text(self.written(value), **options)
         field.add_class("rb-number")
@@ -137,13 +133,11 @@ class Control:
             raise InputError(self.label, text, "must be a whole number")
         return int(number) if self.is_whole else self.si_value(number)
 
-    def player(self, slider: widgets.Widget) -> widgets.Widget:
-        """Make the buttons that let a slider run by itself, in the browser."""
-        layout = widgets.Layout(flex="0 0 auto", width="5.5em")
+    def player(self, slider: widgets.Widget) -> tuple[widgets.Widget, widgets.Widget]:
+        """Make the buttons that let a slider run by itself in the browser, and the link to it."""
         options = {"min": self.low, "max": self.high, "step": 2 * self.step, "interval": 100}
-        play = widgets.Play(slider.value, show_repeat=False, layout=layout, **options)
-        widgets.jslink((play, "value"), (slider, "value"))
-        return play
+        play = widgets.Play(slider.value, show_repeat=False, **options)
+        return play, widgets.jslink((play, "value"), (slider, "value"))
 
     def si_value(self, displayed: Any) -> Any:
         """Return the SI value of what the widget displays."""

@@ -30,12 +30,15 @@ from ..results import Crossing
 from ..settings import default_time_step
 from .code import case_lines
 from .control import Control, change_at, for_case
+from .looks import class_of, looks
+from .standing import stands_here
 
 __all__ = ["DPI", "FALLBACK", "Panel"]
 
 FALLBACK = (
     "Interactive panel: open this notebook in JupyterLab and run this cell to move its sliders."
 )
+CLOSED = "This panel is closed: its cell was run again, and what it made then has replaced it."
 DPI = 100
 REST = 0.3  # s without a move, after which the exact crossing is computed
 ROUGH_STEP = 8e-3  # s, at most, while a control is moved
@@ -123,9 +126,10 @@ class Panel:
         self._remarks = remarks or _usual_remarks
         self._code, self._rough = code, rough
         self._results: OrderedDict[tuple, tuple[Case, Any]] = OrderedDict()
+        self._links: list[widgets.Widget] = []
         self._moves = 0
         self._timers: list[asyncio.TimerHandle] = []
-        self._ignores_sliders = self._will_follow = self._shows_rough = False
+        self._ignores_sliders = self._will_follow = self._shows_rough = self._closed = False
         self._writes_numbers = False
         self._made_in = _running_loop(), threading.get_ident()
         self.figure = Figure(figsize=size, dpi=dpi, layout="constrained")
@@ -140,6 +144,7 @@ class Panel:
         reuse_artists(self.figure)
         self._show()
         self._last_values = values
+        stands_here(self)
 
     # ---- widgets
 
@@ -151,10 +156,7 @@ class Panel:
         self.fields = {n: field for n, field in fields.items() if field is not None}
         for name, field in self.fields.items():
             field.observe(lambda change, name=name: self._typed(name, change.new), names="value")
-        beside = widgets.Layout(flex="0 0 auto", margin="0 0 0 2px")
-        self._asides = {
-            n: widgets.Label(layout=beside) for n, c in self.controls.items() if c.aside
-        }
+        self._asides = {n: widgets.Label() for n, c in self.controls.items() if c.aside}
         # As a data URL: from a blob's URL, which the widget would make of plain bytes, a browser
         # shows it 15 ms later.
         self.image = widgets.Image(format="url", layout=widgets.Layout(width="100%"))
@@ -178,26 +180,16 @@ class Panel:
             widget.add_class(f"rb-{name}")
 
     def _arranged(self) -> widgets.Widget:
-        """Return everything in its place: controls beside the picture or, if narrow, above it."""
-        row = widgets.Layout(
-            flex="1 1 28em", max_width="40em", flex_flow="row wrap", align_items="center"
-        )
-        rows = [widgets.HBox(self._row(name), layout=row) for name in self.controls]
-        wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="0 1em")
-        controls = widgets.HBox(rows, layout=wrapped)
-        wrapped = widgets.Layout(flex_flow="row wrap")
-        buttons = widgets.HBox([self.paper_button, self.code_button], layout=wrapped)
-        side_layout = widgets.Layout(flex="1 1 24em", min_width="0")
-        side = widgets.VBox([controls, buttons, self.trouble, self.code_area], layout=side_layout)
-        width = self.figure.get_figwidth() * DPI
-        main_layout = widgets.Layout(
-            flex=f"6 1 {0.82 * width:.0f}px", min_width="0", max_width=f"{width:.0f}px"
-        )
-        main = widgets.VBox([self.image, self.words, self.remarks], layout=main_layout)
-        side.add_class("rb-side")
-        main.add_class("rb-main")
-        wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="4px 1em")
-        return widgets.VBox([widgets.HBox([side, main], layout=wrapped)])
+        """Return everything in its place; `looks` says where that is in a page."""
+        controls = _box("controls", [_box("control", self._row(name)) for name in self.controls])
+        buttons = _box("buttons", [self.paper_button, self.code_button])
+        side = _box("side", [controls, buttons, self.trouble, self.code_area], widgets.VBox)
+        words = [self.words, self.remarks]
+        main = _box("main", [self.image, *words], widgets.VBox)
+        both = _box("both", [side, main])
+        size = tuple(DPI * self.figure.get_size_inches())
+        both.add_class(class_of(*size))
+        return widgets.VBox([both, looks(*size)])
 
     def _row(self, name: str) -> list[widgets.Widget]:
         """Return a control and what stands beside it."""
@@ -208,7 +200,9 @@ class Panel:
         if name in self._asides:
             row.append(self._asides[name])
         if control.plays:
-            row.append(control.player(slider))
+            player, link = control.player(slider)
+            row.append(player)
+            self._links.append(link)
         return row
 
     # ---- what users ask
@@ -242,7 +236,10 @@ class Panel:
         InputError
             An unknown control or a value out of range, before anything moves; or what the case says
             to the values.
+        RuntimeError
+            The panel is closed.
         """
+        self._refuse_if_closed()
         for name in values:
             errors.choice("control", name, self.controls)
         self._move({n: self.controls[n].check(v) for n, v in values.items()}, self._show)
@@ -252,7 +249,30 @@ class Panel:
 
     def reset(self) -> Panel:
         """Put all controls back to where they started, as *Paper case* does."""
+        self._refuse_if_closed()
         return self.set(**self.start)
+
+    def close(self) -> None:
+        """Free all that the panel holds: its widgets, its picture, its results and its case.
+
+        A panel whose cell is run again closes by itself, where no other cell shows it. What the
+        notebook keeps of it in ``Out`` is then empty.
+        """
+        if self._closed:
+            return
+        self._stop()
+        for widget in _with_parts([self.widget, *self._links]):
+            widget.unobserve_all()
+            widget.close()
+        vars(self).clear()
+        self._closed = True
+
+    def _refuse_if_closed(self) -> None:
+        if self._closed:
+            raise RuntimeError(CLOSED)
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(CLOSED if vars(self).get("_closed") else f"a panel has no {name}")
 
     # ---- following a hand
 
@@ -304,6 +324,8 @@ class Panel:
     def _follow(self) -> None:
         """Show what the controls say now: roughly if that is quicker, and exactly at rest."""
         self._will_follow = False
+        if self._closed:
+            return None
         loop, values = _running_loop(), self.values
         self._write_numbers(values)
         before, self._last_values = self._last_values, values
@@ -340,7 +362,7 @@ class Panel:
         move = self._moves
 
         def stop_if_stale(_: str = "") -> None:
-            if move != self._moves:
+            if self._closed or move != self._moves:
                 raise _StaleError
 
         def work() -> None:
@@ -352,7 +374,7 @@ class Panel:
 
         def done(task: asyncio.Future) -> None:
             stale = task.cancelled() or isinstance(task.exception(), _StaleError)
-            if not (rough or stale) and move == self._moves:
+            if not (rough or stale or self._closed) and move == self._moves:
                 self._show()  # from the results kept; what went wrong goes wrong again, and is said
 
         loop.run_in_executor(None, work).add_done_callback(done)
@@ -450,6 +472,9 @@ class Panel:
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
         """Show the widget, or a sentence where there are no widgets."""
+        if self._closed:
+            return {"text/plain": CLOSED}
+        stands_here(self)
         bundle = self.widget._repr_mimebundle_(include=include, exclude=exclude) or {}
         return {**bundle, "text/plain": FALLBACK}
 
@@ -482,6 +507,29 @@ def _as_html(remarks: Sequence[Remark]) -> str:
     rest = [f"And {more} more; see the remarks of the summary."] if more > 0 else []
     words = "<br>".join(lines[:REMARKS_SHOWN] + rest)
     return f'<div role="note" style="{_NOTE}">{words}</div>'
+
+
+def _with_parts(roots: Sequence[widgets.Widget]) -> list[widgets.Widget]:
+    """Return widgets with all that belongs to them: what stands in them, layouts, styles."""
+    found: dict[widgets.Widget, None] = {}
+    waiting = list(roots)
+    while waiting:
+        widget = waiting.pop()
+        if widget not in found:
+            found[widget] = None
+            values = [getattr(widget, key) for key in widget.keys]
+            values += [part for value in values if isinstance(value, tuple) for part in value]
+            waiting += [value for value in values if isinstance(value, widgets.Widget)]
+    return list(found)
+
+
+def _box(
+    name: str, parts: Sequence[widgets.Widget], kind: type[widgets.Box] = widgets.HBox
+) -> widgets.Box:
+    """Put parts into a box of the class ``rb-`` and its name."""
+    box = kind(parts)
+    box.add_class(f"rb-{name}")
+    return box
 
 
 def _button(label: str, tooltip: str) -> widgets.Button:
