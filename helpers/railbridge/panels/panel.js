@@ -9,6 +9,7 @@
       const label = control.querySelector(".widget-inline-hbox > .widget-label")?.textContent;
       if (!label) continue;
       control.querySelectorAll("[role=slider]").forEach(handle => call(handle, label));
+      control.querySelectorAll(".rb-number input").forEach(field => call(field, label + ", typed"));
       control.querySelectorAll(".widget-readout").forEach(number => {
         call(number, label + ", typed");
         number.setAttribute("role", "textbox");
