@@ -22,8 +22,8 @@ FAULTS = """([root, slider]) => {
         if (cut(button, 0)) bad.push(`${name(button)} is cut`);
     for (const text of seen('.rb-control .widget-label, .widget-readout'))
         if (text.scrollWidth > text.clientWidth + 1) bad.push(`${name(text)} is cut`);
-    const parts = seen('button, select, .noUi-target, .widget-readout, .rb-control .widget-label, '
-        + '.rb-picture, .rb-summary');
+    const parts = seen('button, select, .noUi-target, .widget-readout, .rb-number, '
+        + '.rb-control .widget-label, .rb-picture, .rb-summary');
     parts.forEach((a, i) => parts.slice(i + 1).forEach(b => {
         const [p, q] = [filled(a), filled(b)];
         const across = Math.min(p.right, q.right) - Math.max(p.left, q.left);

@@ -21,6 +21,9 @@ run = {"run.time_step": 5e-3, "run.speed": 62.0, "train.cars": 2}
 rb.panels.fixed_point(rb.case("paper").replace({**run, **waves}))"""
 
 
+COUNT = "from ipywidgets.widgets import widget\nlen(widget._instances)"
+
+
 def displacement_at_iteration(said, w, t):
     return f" m is {1e3 * w:.2f} mm at iteration " in said
 
@@ -136,7 +139,11 @@ def test_the_player_says_what_its_buttons_do(panel, start):
 def test_a_panel_run_again_takes_the_place_of_the_old_one(visited, notebook, panel, start):
     """The cell's output is another panel; the old one's widgets are gone, and nobody complains."""
     now = panel.restored(start)
+    before = notebook.run_new_cell(panel.root, lambda: panel.page.keyboard.insert_text(COUNT))
     notebook.run_again(panel.root)
+    after = notebook.run_new_cell(panel.root, lambda: panel.page.keyboard.insert_text(COUNT))
+    counts = [cell["outputs"][0]["data"]["text/plain"] for cell in (before, after)]
+    assert counts[0] == counts[1]
     (root,) = notebook.page.locator(".rb-panel").all()
     own = PanelOnPage(root)
     again = own.begun()

@@ -105,7 +105,7 @@ def test_a_wave_later_all_begins_again(riding):
     assert np.allclose(moved[:, 0], moved[:, -1], atol=0.11)
     along, rail = data(riding)["along"], np.array(data(riding)["rail"])
     assert 48 * along[1] == pytest.approx(-14.4 * scale_of(riding), rel=1e-3)
-    assert rail.shape == (48, 121)
+    assert rail.shape == (48, 49)
 
 
 def test_above_the_deck_is_rigid_below_it_gives(run, twice):
@@ -139,6 +139,25 @@ def test_a_rail_without_waves_and_a_vehicle_of_one_wheel():
     assert exaggeration(level) == 1.0 and not np.array(data(level)["H"]).any()
     mass = animate_car_on_waves(rb.sprung_mass("m", 5e3, 1e6, 2e4), WAVE, 20.0, frames=4)
     assert len(data(mass)["H"]) == 3
+
+
+def test_short_waves_are_drawn_as_waves():
+    """A crossing may have waves of 3 m, twelve on the deck: the rail has points enough for them."""
+    waves = {"track.vertical.wavelength": 3.6, "track.lateral.wavelength": 3.6}
+    twice = animate_rigid_and_flexible(rb.case("paper").replace({**QUICK, **waves}).run())
+    rail = next(line for line in data(twice)["lines"] if np.ptp(line["y"]) > 0.0)
+    turns = np.diff(np.sign(np.diff(rail["y"])))
+    assert np.count_nonzero(turns) == 20 and len(twice.html) < FILE_BYTES
+    riding = animate_car_on_waves(CAR, rb.Harmonic(1e-3, 3.6), 20.0)
+    assert len(data(riding)["rail"][0]) == 97 and len(riding.html) < FILE_BYTES
+
+
+@pytest.mark.parametrize("name", ["xia2000", "sprung_mass"])
+def test_every_wheel_and_body_has_a_part(name):
+    vehicle = rb.vehicle(name)
+    parts = data(animate_car_on_waves(vehicle, WAVE, 20.0, frames=4))["parts"]
+    assert sum(len(p["x"]) == 24 for p in parts) == len(vehicle.axles)
+    assert sum(len(p["x"]) == 4 for p in parts) == len(vehicle.bodies)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ drawing from `plots`.
     panel                                      # in a notebook cell: the sliders
     panel.set(speed=22.0, wavelength=12.0)     # the same by hand; SI units
     panel.summary, panel.figure, panel.case    # what it shows, in words, as a figure, as a case
+    panel.close()                              # frees it, as running its cell again does
 """
 
 from .control import Control

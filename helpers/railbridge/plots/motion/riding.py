@@ -32,7 +32,8 @@ __all__ = ["animate_car_on_waves", "animate_rigid_and_flexible"]
 CYCLE = 2.5  # s, in which one wave passes
 _MOTION = style_of("displacement_z").colour
 _LARGEST_SCALE = 60.0  # px per m
-_DECK_POINTS = 49
+_A_WAVE = 12  # points of a rail, if that is between
+_FEWEST_POINTS, _MOST_POINTS = 49, 97  # from end to end
 
 
 def animate_car_on_waves(
@@ -69,7 +70,7 @@ def animate_car_on_waves(
     ride = ride_of(vehicle, values, {a.x: wave.value(travelled + a.x) for a in vehicle.axles})
     scale = min(_LARGEST_SCALE, (WIDTH - 40) / (1.3 * drawn_length(vehicle)))
     reach = (WIDTH - 40) / scale / 2
-    along = np.linspace(-reach, reach, 121)
+    along = _places(-reach, reach, wave.wavelength)
     rail = wave.value(travelled[:frames, None] + along)
     car = SideView(vehicle, scale, [ride], float(np.abs(rail).max()))
     level, middle, body = 34.0 + car.height, WIDTH / 2, ride.bodies[name][0]
@@ -212,7 +213,7 @@ class _Twice:
         speed, delays = run.settings.speed, [axle.delay for axle in car.axles]
         stop = min(run.time[-1], (max(delays) + run.deck.length) / speed + 0.5)
         self.car, self.time = car, np.linspace(min(delays) / speed, stop, frames)
-        self.along = np.linspace(0.0, run.deck.length, _DECK_POINTS)
+        self.along = _places(0.0, run.deck.length, run.track.shortest)
 
         def now(values: np.ndarray) -> np.ndarray:
             return np.interp(self.time, run.time, values)
@@ -237,6 +238,12 @@ class _Twice:
         """Return how far the deck is up at a place for each frame; nothing off the deck."""
         rows = zip(places, self.sag, strict=True)
         return np.array([np.interp(x, self.along, row, left=0.0, right=0.0) for x, row in rows])
+
+
+def _places(start: float, stop: float, shortest: float) -> np.ndarray:
+    """Return places at which a rail with waves of this length at least is drawn, m."""
+    wanted = 1 + _A_WAVE * (stop - start) / shortest
+    return np.linspace(start, stop, int(np.clip(wanted, _FEWEST_POINTS, _MOST_POINTS)))
 
 
 def _below_track(run: Crossing, x: float) -> np.ndarray:
