@@ -429,7 +429,7 @@ def test_buttons_say_what_the_next_click_does_and_open_code_follows(all_panels):
     assert (button.description, area.layout.display) == ("Hide the code", "flex")
     assert area.value == panel.code
     panel.set(wavelength=12.0)
-    assert area.value == panel.code and "'wavelength': 12.0" in area.value
+    assert area.value == panel.code and '.wavelength": 12.0' in area.value
     button.click()
     assert (button.description, area.layout.display) == ("Show this as code", "none")
     panel.reset()
@@ -444,17 +444,6 @@ def test_labels_say_what_a_control_changes_and_in_which_unit(all_panels):
     }  # fmt: skip
     sliders = [pair for panel in all_panels.values() for pair in panel.sliders.items()]
     assert {(name, slider.description) for name, slider in sliders} == set(labels.items())
-    # All sliders start below each other, and no label is cut: a letter is half as wide as high.
-    (width,) = {slider.style.description_width for _, slider in sliders}
-    assert float(width.removesuffix("em")) >= 0.5 * max(map(len, labels.values()))
-
-
-def test_the_number_beside_a_slider_shows_every_step(all_panels):
-    for panel in all_panels.values():
-        for name, slider in panel.sliders.items():
-            if isinstance(slider, (widgets.FloatSlider, widgets.IntSlider)):
-                shown = format(slider.step, slider.readout_format)
-                assert float(shown) == pytest.approx(slider.step), name
 
 
 def test_the_paper_case_gives_the_known_numbers(all_panels):

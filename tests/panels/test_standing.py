@@ -107,10 +107,21 @@ def quick():
 
 
 def test_closing_frees_widgets_and_results():
-    before = set(registry._instances)
-    panel = panels.overview(rb.case("paper").replace({"run.time_step": None, "train.cars": 2}))
+    before, results = set(registry._instances), []
+
+    def compute(case, progress):
+        run = case.compute()
+        results.append(weakref.ref(run))
+        return run
+
+    control = panels.Control("speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5)
+    player = panels.Control("place", "place (m)", (), 0, 9, 1, start=0, plays=True)
+    panel = panels.Panel(
+        rb.case("paper").replace({"run.time_step": None, "train.cars": 2}),
+        [control, player], [["a"]], lambda *_: None, lambda *_: "", compute=compute,
+    )  # fmt: skip
     held = [weakref.ref(panel.figure), weakref.ref(panel.case), weakref.ref(panel.sliders["speed"])]
-    held += [weakref.ref(next(iter(panel._results.values()))[1].stages[0])]
+    held += results
     assert set(registry._instances) > before
     panel.close()
     panel.close()
