@@ -216,6 +216,22 @@ def test_signs_of_the_condensed_components():
     assert of(7, 1) == pytest.approx([0, 1, -0.98, 9.05, 0])
 
 
+def test_condensed_components_have_names_and_two_places():
+    """About the centre of mass the lateral force has an arm of its height; the rest stays."""
+    car = rb.Train(CAR).car(1)
+    forces = np.random.default_rng(4).normal(size=(8, 2, 5))
+    track, centre = car.condensed(forces), car.condensed(forces, "centre")
+    assert tuple(track) == tuple(centre) == rb.CONDENSED
+    assert track["force_z"] == pytest.approx(forces[:, 1].sum(axis=0))
+    height = CAR.body.position[2]
+    assert centre["moment_x"] == pytest.approx(track["moment_x"] + height * track["force_y"])
+    for name in ("force_y", "force_z", "moment_y", "moment_z"):
+        assert centre[name] == pytest.approx(track[name])
+    assert car.condensed(forces[..., 0] * 1j)["force_y"] == pytest.approx(1j * track["force_y"][0])
+    with pytest.raises(rb.InputError, match="at"):
+        car.condensed(forces, "middle")
+
+
 def test_axle_train():
     train = rb.AxleTrain([0.0, 3.0, 14.0], [1e5, 2e5, 1e5])
     assert train.length == 14.0 and len(train.wheels) == 3

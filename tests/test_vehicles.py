@@ -129,7 +129,7 @@ def motion_of(car, translation=(0, 0), roll=0.0, pitch=0.0, yaw=0.0):
 )
 def test_a_rigid_motion_of_car_and_track_stretches_nothing(motion):
     x, support = motion_of(CAR, **motion)
-    rows, k = CAR._contact_rows, CAR.contact_stiffness
+    rows, k = CAR.contact_stretch, CAR.contact_stiffness
     assert rows @ x == pytest.approx(support, abs=1e-12)
     pushed = np.einsum("wdn,wd->n", rows, k * support)
     assert CAR.stiffness_matrix @ x == pytest.approx(pushed, rel=1e-9, abs=1e-3)

@@ -295,14 +295,7 @@ class Crossing:
         forces = self._wheels_of(self.coupling.cars[own.number - 1])
         if not static:
             forces = forces - own.static_forces[..., None]
-        resultant = np.tensordot(own.condensation("condensed").matrix[0], forces, 2)
-        values = dict(zip(CONDENSED, resultant, strict=True))
-        if at == "centre":
-            x, y, z = own.vehicle.body.position
-            force_y, force_z = values["force_y"], values["force_z"]
-            values["moment_x"] = values["moment_x"] - y * force_z + z * force_y
-            values["moment_y"] = values["moment_y"] + x * force_z
-            values["moment_z"] = values["moment_z"] - x * force_y
+        values = own.condensed(forces, at)
         units = {c: "N" if c.startswith("force") else "N m" for c in CONDENSED}
         return History(self.time, values, units, f"car {car}")
 

@@ -178,6 +178,33 @@ class Car:
                     matrix[s, 4, w, 0] = wheel.x - offsets[s]
         return Condensation(offsets, matrix)
 
+    def condensed(self, forces: np.ndarray, at: str = "track") -> dict[str, np.ndarray]:
+        """Return wheel forces condensed to the five components of `CONDENSED`, by name.
+
+        Parameters
+        ----------
+        forces : ndarray, shape (wheels, 2, ...)
+            N, lateral before vertical: histories, or complex amplitudes.
+        at : {"track", "centre"}
+            At rail level below the car's middle, or at the car body's centre of mass, as the paper
+            prints it (Figure 9).
+
+        Returns
+        -------
+        dict of ndarray, shape (...)
+            N and N m.
+        """
+        errors.choice("at", at, ("track", "centre"))
+        (station,) = self.condensation("condensed").matrix
+        values = dict(zip(CONDENSED, np.tensordot(station, forces, 2), strict=True))
+        if at == "centre":
+            x, y, z = self.vehicle.body.position
+            force_y, force_z = values["force_y"], values["force_z"]
+            values["moment_x"] = values["moment_x"] - y * force_z + z * force_y
+            values["moment_y"] = values["moment_y"] + x * force_z
+            values["moment_z"] = values["moment_z"] - x * force_y
+        return values
+
 
 @dataclass(frozen=True)
 class Passage:

@@ -335,7 +335,7 @@ class Vehicle:
         masses = zip(np.diag(self.mass_matrix), self.labels, strict=True)
         gravity = np.array([mass * G * label.endswith(" z") for mass, label in masses])
         rest = np.linalg.solve(self.stiffness_matrix, -gravity)
-        stretch = self._contact_rows @ rest
+        stretch = self.contact_stretch @ rest
         result = []
         for axle in self.axles:
             own = self.static_wheelset_mass * G / len(axle.wheels)
@@ -347,8 +347,11 @@ class Vehicle:
         return tuple(result)
 
     @cached_property
-    def _contact_rows(self) -> np.ndarray:
-        """Stretch rows of the contacts, shape (contacts, 2, n)."""
+    def contact_stretch(self) -> np.ndarray:
+        """What each freedom adds to the stretch of every contact's spring, shape (contacts, 2, n).
+
+        gamma: the stretch is ``gamma . q`` less the motion of the rail; lateral before vertical.
+        """
         return frozen(np.array([self._stretch_rows(s) for s in self._standing[1]]))
 
     @cached_property
@@ -370,7 +373,7 @@ class Vehicle:
         Both are all contacts in one row, lateral before vertical. The force on the deck without its
         static part is output minus input.
         """
-        rows = self._contact_rows.reshape(-1, len(self.labels))
+        rows = self.contact_stretch.reshape(-1, len(self.labels))
         k, c = self.contact_stiffness.reshape(-1, 1), self.contact_damping.reshape(-1, 1)
         output = np.hstack([k * rows, c * rows])
         matrices = self.mass_matrix, self.damping_matrix, self.stiffness_matrix
@@ -452,7 +455,7 @@ class Vehicle:
         state = -accelerations @ np.hstack([self.stiffness_matrix, self.damping_matrix])
         respond = replace(self.system, c=state).sampled(time_step)
         # Zero where no spring of the body ends on the rail.
-        direct = accelerations @ self._contact_rows.reshape(-1, len(self.labels)).T
+        direct = accelerations @ self.contact_stretch.reshape(-1, len(self.labels)).T
 
         def body_accelerations(u: np.ndarray) -> np.ndarray:
             inputs = u.reshape(-1, u.shape[-1])
@@ -473,7 +476,7 @@ class Vehicle:
             Force on the deck (N) at a contact and direction for 1 m at another contact and
             direction; lateral before vertical.
         """
-        rows = self._contact_rows.reshape(-1, len(self.labels))
+        rows = self.contact_stretch.reshape(-1, len(self.labels))
         s = 2j * np.pi * errors.number("frequency_hz", frequency_hz, unit="Hz")
         dynamic = self.mass_matrix * s**2 + self.damping_matrix * s + self.stiffness_matrix
         impedance = (self.contact_stiffness + self.contact_damping * s).ravel()

@@ -16,7 +16,7 @@ from ..plots.forces import car_components, mark_instant
 from ..plots.scene import crossing_at
 from ..plots.style import mode_in_words
 from ..results import Crossing
-from ..trains import CONDENSED, steady_forces
+from ..trains import steady_forces
 from .control import Control
 from .panel import DPI, Panel
 
@@ -219,8 +219,8 @@ def rigid_forces(case: Case | None = None) -> Panel:
 def _steady_components(case: Case) -> dict[str, float]:
     """Return the steady amplitudes of the first car's five components, N and N m."""
     forces = steady_forces(case.train.vehicles[0], case.track, case.options["speed"])
-    resultant = np.tensordot(case.train.car(1).condensation("condensed").matrix[0], forces, 2)
-    return dict(zip(CONDENSED, np.abs(resultant).tolist(), strict=True))
+    steady = case.train.car(1).condensed(forces)
+    return {name: float(np.abs(amplitude)) for name, amplitude in steady.items()}
 
 
 def deck_modes(case: Case | None = None) -> Panel:
