@@ -249,6 +249,36 @@ def test_exercises_with_checked_answers():
     assert reversed_.modes().frequencies_hz[0] == pytest.approx(0.651, abs=6e-4)
 
 
+def test_a_varied_car_has_its_parameters_multiplied():
+    same = rb.varied_car("xia2000")
+    assert np.array_equal(same.stiffness_matrix, CAR.stiffness_matrix)
+    assert np.array_equal(same.mass_matrix, CAR.mass_matrix)
+    heavier = rb.varied_car("xia2000", car_body_mass=1.3, secondary_vertical_damping=0.5)
+    assert heavier.bodies[0].mass == pytest.approx(1.3 * 50990)
+    assert heavier.bodies[1:] == CAR.bodies[1:] and heavier.name == "xia2000 varied"
+    halved = {s.damping[1] for s in heavier.springs if not s.on_rail}
+    assert halved == {15e3} and {s.damping[1] for s in heavier.springs if s.on_rail} == {15e3}
+    assert rb.varied_car("xia2000", secondary_lateral_damping=0.0).springs[0].damping[0] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("factors", "says"),
+    [
+        (
+            {"car_mass": 1.3},
+            "xia2000: car_mass = 1.3: is no parameter of this car. Did you mean 'car_body_mass'?",
+        ),
+        ({"car_body_mass": -1}, "car_body_mass = -1: must be a finite number at least 0."),
+        ({"car_body_mass": "30 %"}, "car_body_mass = '30 %': must be a finite number"),
+        ({"car_body_mass": 0}, "vehicle xia2000 varied: car_body_mass = 0.0: must be a finite"),
+    ],
+)
+def test_a_car_is_not_varied_in_what_it_does_not_have(factors, says):
+    with pytest.raises(rb.InputError) as refused:
+        rb.varied_car("xia2000", **factors)
+    assert str(refused.value).startswith(says)
+
+
 def test_sprung_mass_closed_form():
     mass, stiffness, damping = 5750.0, 1.595e6, 2e4
     car = rb.sprung_mass("m", mass, stiffness, damping)

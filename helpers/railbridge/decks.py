@@ -253,7 +253,7 @@ class History:
     jumps: Callable[[str], tuple[np.ndarray, np.ndarray]] | None = field(default=None, repr=False)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self.values:
+        if not isinstance(name, str) or name not in self.values:
             raise InputError(
                 "name", name, "no such history", errors.did_you_mean(name, self.values)
             )

@@ -226,8 +226,9 @@ class Crossing:
 
         Car and wheel are numbered from 1.
         """
+        chosen = errors.integer("car", car, least=1), errors.integer("wheel", wheel, least=1)
         for w, forces in zip(self.train.wheels, self.wheel_forces, strict=True):
-            if (w.car, w.number) == (car, wheel):
+            if (w.car, w.number) == chosen:
                 values = dict(zip(("force_y", "force_z"), forces, strict=True))
                 where = f"car {car}, wheel {wheel}"
                 return History(self.time, values, {"force_y": "N", "force_z": "N"}, where)

@@ -146,6 +146,21 @@ def test_a_value_that_cannot_be_is_refused_in_words(visited, notebook, panel, st
     assert notebook.complaints() == visited.complaints() == []
 
 
+@of("03_rigid_deck_forces")
+def test_a_comma_is_refused_and_a_point_is_read(visited, notebook, panel, start):
+    """A browser reads 12,5 as 12; the panel says what is wrong, and the keyboard mends it."""
+    now = panel.restored(start)
+    speed = panel.slider("speed (m/s)")
+    panel.type_number(speed, "12,5")
+    refused = panel.refused(now)
+    assert "12,5" in refused["error"] and "with a point: 12.5" in refused["error"]
+    panel.type_number(speed, "12.5")
+    assert "12.5 m/s" in panel.changed(now)["summary"]
+    assert panel.number(speed) == "12.5" and panel.alert.count() == 0
+    panel.restored(start)
+    assert notebook.complaints() == visited.complaints() == []
+
+
 @of("04_deck_modes")
 def test_a_hurried_hand_is_followed_in_order(visited, notebook, panel, start):
     """JupyterLab sends what sliders say to a thread of its own in the kernel, and what buttons say

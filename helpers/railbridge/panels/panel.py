@@ -14,6 +14,7 @@ from base64 import b64encode
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
+from types import MappingProxyType
 from typing import Any
 
 import ipywidgets as widgets
@@ -23,10 +24,11 @@ from matplotlib.figure import Figure
 from .. import errors
 from ..cases.definition import Case
 from ..errors import InputError, Remark
-from ..plots.drawing import FIGURE_WIDTH, keep_limits, reuse_artists
+from ..plots.drawing import FIGURE_WIDTH, keep_limits, leave_behind, reuse_artists
 from ..plots.picture import Picture
 from ..results import Crossing
 from ..settings import default_time_step
+from .code import case_lines
 from .control import Control, change_at, for_case
 
 __all__ = ["DPI", "FALLBACK", "Panel"]
@@ -71,8 +73,8 @@ class Panel:
         warned of is shown with the exact picture. By default those on a crossing, or on the input
         where the result is something else.
     code : str
-        Last line of *Show this as code*, formatted with the values: the number that the summary
-        gives.
+        Lines of *Show this as code* after those that make the case, formatted with the values: they
+        draw, and the last one is the number that the summary gives.
     size : (float, float)
         Inches.
     heights : sequence of float, optional
@@ -82,6 +84,11 @@ class Panel:
         moved.
     dpi : float
         Dots per inch of the picture; more for a projector.
+    behind : mapping of sequence of str
+        By axes, the names of curves that stay as they are at the start, in grey behind those that
+        move.
+    start_name : str
+        What the legend calls them.
 
     Raises
     ------
@@ -99,11 +106,13 @@ class Panel:
         *,
         compute: Callable[[Case, Progress | None], Any] = Case.compute,
         remarks: Callable[[Case, Any], Sequence[Remark]] | None = None,
-        code: str = "",
+        code: str = "run = case.run()",
         size: tuple[float, float] = (FIGURE_WIDTH, 4.6),
         heights: Sequence[float] | None = None,
         rough: bool = False,
         dpi: float = DPI,
+        behind: Mapping[str, Sequence[str]] = MappingProxyType({}),
+        start_name: str = "at the start",
     ) -> None:
         self.controls = {c.name: for_case(c, case) for c in controls}
         self.start = {c.name: c.first_value(case) for c in self.controls.values()}
@@ -112,11 +121,12 @@ class Panel:
         self.case = self._base = case
         self._draw, self._say, self._compute = draw, say, compute
         self._remarks = remarks or _usual_remarks
-        self._code_line, self._rough = code, rough
+        self._code, self._rough = code, rough
         self._results: OrderedDict[tuple, tuple[Case, Any]] = OrderedDict()
         self._moves = 0
         self._timers: list[asyncio.TimerHandle] = []
         self._ignores_sliders = self._will_follow = self._shows_rough = False
+        self._writes_numbers = False
         self._made_in = _running_loop(), threading.get_ident()
         self.figure = Figure(figsize=size, dpi=dpi, layout="constrained")
         FigureCanvasAgg(self.figure)
@@ -125,6 +135,8 @@ class Panel:
         self._build_widgets()
         values = self.values
         self._draw(self._axes, *self._solve(values), values)
+        for name, curves in behind.items():
+            leave_behind(self._axes[name], curves, start_name)
         reuse_artists(self.figure)
         self._show()
         self._last_values = values
@@ -135,6 +147,10 @@ class Panel:
         self.sliders = {n: c.widget(self.start[n]) for n, c in self.controls.items()}
         for slider in self.sliders.values():
             slider.observe(lambda _: self._slider_moved(), names="value")
+        fields = {n: c.field(self.start[n]) for n, c in self.controls.items()}
+        self.fields = {n: field for n, field in fields.items() if field is not None}
+        for name, field in self.fields.items():
+            field.observe(lambda change, name=name: self._typed(name, change.new), names="value")
         beside = widgets.Layout(flex="0 0 auto", margin="0 0 0 2px")
         self._asides = {
             n: widgets.Label(layout=beside) for n, c in self.controls.items() if c.aside
@@ -150,7 +166,7 @@ class Panel:
         self.code_button = _button("Show this as code", tooltip)
         self.code_button.on_click(lambda _: self._show_or_hide_code())
         layout = widgets.Layout(width="100%", max_width="900px", display="none")
-        self.code_area = widgets.Textarea(rows=14, layout=layout)
+        self.code_area = widgets.Textarea(layout=layout)
         self.widget = self._arranged()
         for widget, name in (
             (self.image, "picture"),
@@ -172,23 +188,23 @@ class Panel:
         wrapped = widgets.Layout(flex_flow="row wrap")
         buttons = widgets.HBox([self.paper_button, self.code_button], layout=wrapped)
         side_layout = widgets.Layout(flex="1 1 24em", min_width="0")
-        side = widgets.VBox([controls, buttons], layout=side_layout)
+        side = widgets.VBox([controls, buttons, self.trouble, self.code_area], layout=side_layout)
         width = self.figure.get_figwidth() * DPI
         main_layout = widgets.Layout(
             flex=f"6 1 {0.82 * width:.0f}px", min_width="0", max_width=f"{width:.0f}px"
         )
-        main = widgets.VBox(
-            [self.image, self.words, self.remarks, self.trouble], layout=main_layout
-        )
+        main = widgets.VBox([self.image, self.words, self.remarks], layout=main_layout)
         side.add_class("rb-side")
         main.add_class("rb-main")
         wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="4px 1em")
-        return widgets.VBox([widgets.HBox([side, main], layout=wrapped), self.code_area])
+        return widgets.VBox([widgets.HBox([side, main], layout=wrapped)])
 
     def _row(self, name: str) -> list[widgets.Widget]:
         """Return a control and what stands beside it."""
         control, slider = self.controls[name], self.sliders[name]
         row = [slider]
+        if name in self.fields:
+            row.append(self.fields[name])
         if name in self._asides:
             row.append(self._asides[name])
         if control.plays:
@@ -204,11 +220,9 @@ class Panel:
 
     @property
     def code(self) -> str:
-        """Python lines that compute the present case, and the number that the summary gives."""
-        code = self.case.code()
-        if self._code_line:
-            code += self._code_line.format(**self.values, x=self.case.points[0]) + "\n"
-        return code
+        """Python lines that compute the present case, draw it, and give the summary's number."""
+        lines = self._code.format(**self.values, x=self.case.points[0])
+        return case_lines(self.case, self.controls.values()) + f"{lines}\n"
 
     def set(self, **values: Any) -> Panel:
         """Move controls, as by hand: the picture and the summary follow, at once the exact ones.
@@ -266,10 +280,32 @@ class Panel:
             self._will_follow = True
             loop.call_soon_threadsafe(self._follow)
 
+    def _typed(self, name: str, text: str) -> None:
+        """Move a slider to the number typed beside it, or refuse it in words."""
+        if self._writes_numbers:
+            return
+        control, slider = self.controls[name], self.sliders[name]
+        try:
+            displayed = control.displayed_value(control.read(text))
+        except InputError as error:
+            self._stop()
+            self._show_error(error)
+            return
+        if displayed == slider.value:
+            self._slider_moved()
+        slider.value = displayed
+
+    def _write_numbers(self, values: Mapping[str, Any]) -> None:
+        self._writes_numbers = True
+        for name, field in self.fields.items():
+            field.value = self.controls[name].written(values[name])
+        self._writes_numbers = False
+
     def _follow(self) -> None:
         """Show what the controls say now: roughly if that is quicker, and exactly at rest."""
         self._will_follow = False
         loop, values = _running_loop(), self.values
+        self._write_numbers(values)
         before, self._last_values = self._last_values, values
         # Without a kernel whose messages have to be answered there is nobody to keep waiting.
         if loop is None or not self._rough or self._key(values) in self._results:
@@ -347,12 +383,16 @@ class Panel:
                 self._results.popitem(last=False)
         return solved
 
-    def _show(self, rough: bool = False) -> None:
-        """Compute, draw, say; an error is said instead, and the picture stays as it was."""
+    def _stop(self) -> None:
+        """Give up what is being computed for where the controls stood, and what is to come."""
         self._moves += 1
         for timer in self._timers:
             timer.cancel()
         self._timers = []
+
+    def _show(self, rough: bool = False) -> None:
+        """Compute, draw, say; an error is said instead, and the picture stays as it was."""
+        self._stop()
         values = self.values
         try:
             case, result = self._solve(values, rough)
@@ -366,6 +406,7 @@ class Panel:
             self.case, self.summary, self.error = case, summary, None
             self._show_case(rough)
             self.remarks.value = _as_html(remarks)
+        self._write_numbers(values)
         for name, label in self._asides.items():
             label.value = self.controls[name].aside(values[name])
 
@@ -380,7 +421,7 @@ class Panel:
         self._write_summary(rough, note)
         self.trouble.value = ""
         if self.code_area.layout.display != "none":
-            self.code_area.value = self.code
+            self._write_code()
 
     def _show_error(self, error: Exception) -> None:
         self.error = error
@@ -398,9 +439,14 @@ class Panel:
 
     def _show_or_hide_code(self) -> None:
         hidden = self.code_area.layout.display == "none"
-        self.code_area.value = self.code
+        self._write_code()
         self.code_area.layout.display = "flex" if hidden else "none"
         self.code_button.description = "Hide the code" if hidden else "Show this as code"
+
+    def _write_code(self) -> None:
+        """Write the code, and make room for all of its lines."""
+        code = self.code
+        self.code_area.value, self.code_area.rows = code, len(code.splitlines())
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
         """Show the widget, or a sentence where there are no widgets."""

@@ -11,7 +11,7 @@ import hashlib
 import json
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
 from pathlib import Path
@@ -47,7 +47,7 @@ class Animation:
 
     title: str
     frames: int
-    html: str = field(repr=False)
+    html: str
 
     def __repr__(self) -> str:
         return f"Animation: {self.title}, {self.frames} frames"
