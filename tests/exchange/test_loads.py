@@ -70,6 +70,15 @@ def test_nodal_loads_are_statically_equivalent_at_every_instant(line, couples, l
         assert not found.values[:, 3:].any(), "solid elements take no couples"
 
 
+def test_a_component_has_a_name(ours):
+    loads = nodal_loads(ours, line_of(36))
+    names = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
+    for k, name in enumerate(names):
+        assert np.array_equal(loads.component(name), loads.values[:, k])
+    with pytest.raises(rb.InputError, match="force_w"):
+        loads.component("force_w")
+
+
 def test_the_load_table_holds_what_was_computed(ours, tmp_path):
     loads = export_loads(ours, tmp_path / "loads.csv", AXIS, every=5)
     header, *rows = (tmp_path / "loads.csv").read_text(encoding="utf-8").splitlines()

@@ -43,10 +43,24 @@ def fixed_point(function, start):
     return start
 
 
+def one_force(x_i, span):
+    xi = np.clip(0.5 - np.abs(x_i) / span, 0.0, None)
+    return 1 / np.mean(3 * xi - 4 * xi**3), 1 / np.mean(2 * xi)
+
+
+def lever_rule(x, force, places):
+    forces = np.zeros(len(places))
+    k = min(np.searchsorted(places, x, side="right"), len(places) - 1)
+    share = (x - places[k - 1]) / (places[k] - places[k - 1])
+    forces[k - 1], forces[k] = force * (1 - share), force * share
+    return forces
+
+
 WRITTEN = {
     f.__name__: f
     for f in (
         frequencies, notch_shape, condense, rayleigh_coefficients, static_moment, fixed_point,
+        one_force, lever_rule,
     )
 }  # fmt: skip
 
@@ -70,6 +84,11 @@ def test_each_trial_is_passed_by_a_function_written_here():
         ("static_moment", lambda *a: -static_moment(*a), "the sign is not"),
         ("static_moment", lambda a, f, x, span: f[0] * x * (span - x) / span, "1 of 3 cases pass"),
         ("fixed_point", lambda f, x: f(f(x)), "Case 1, x = cos x, from 1: .*too low|high"),
+        ("one_force", lambda x, L: one_force(x, L)[::-1], "0 of 3 cases pass"),
+        ("one_force", lambda x, L: 1 / np.array(one_force(x, L)), "sag: .*too low"),
+        ("one_force", lambda x, L: one_force(x[abs(x) < L / 2], L), "2 of 3 cases pass"),
+        ("lever_rule", lambda x, f, nodes: lever_rule(x, f, nodes)[::-1], "1 of 3 cases pass"),
+        ("lever_rule", lambda x, f, nodes: f * (nodes == x), "1 of 3 cases pass"),
         ("condense", lambda *a: "text", "no real numbers"),
         ("fixed_point", lambda f, x: np.nan, "not finite"),
         ("static_moment", lambda *a: 1 / 0, "stops with ZeroDivisionError"),

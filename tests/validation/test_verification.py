@@ -41,7 +41,7 @@ def test_rows_are_complete_and_their_limits_tight():
     assert loose == {
         "largest mid-span moment",
         "largest reaction, force past L/4",
-        "resonance speed f d",
+        "resonance speed f D",
         "twist under a moving force, 2.4 m off, all modes",
     }
 

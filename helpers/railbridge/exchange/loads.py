@@ -73,6 +73,16 @@ class NodalLoads:
     time: np.ndarray
     values: np.ndarray
 
+    def component(self, name: str) -> np.ndarray:
+        """Return one component of the loads on all nodes, N or N m, shape (nodes, t).
+
+        Parameters
+        ----------
+        name : str
+            ``force_z``, for instance: one of those listed at `values`.
+        """
+        return self.values[:, _COMPONENTS.index(errors.choice("name", name, _COMPONENTS))]
+
     def of_model(self) -> tuple[np.ndarray, str]:
         """Return the loads in the axes and units of the model, and the name of its unit of force.
 

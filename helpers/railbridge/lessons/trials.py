@@ -230,6 +230,35 @@ def _fixed_point() -> list[Case]:
     ]
 
 
+def _one_force() -> list[Case]:
+    def case(words: str, places: list[float], span: float) -> Case:
+        axles = np.array(places)
+        a = np.maximum(span / 2 - np.abs(axles), 0.0)  # from the nearer bearing
+        sag, moment = a * (3 * span**2 - 4 * a**2), a
+        top = span / 2 * 2 * span**2, span / 2
+        return Case(words, (axles, span), np.array([top[0] / sag.mean(), top[1] / moment.mean()]))
+
+    car = [-9.05, -6.55, 6.55, 9.05]
+    return [
+        case("the car of this page on 60 m", car, 60.0),
+        case("three axles, 30 m", [-6.0, 0.0, 2.5], 30.0),
+        case("a span of 15 m, two axles are off it", car, 15.0),
+    ]
+
+
+def _lever_rule() -> list[Case]:
+    def case(words: str, x: float, force: float, places: list[float]) -> Case:
+        nodes = np.array(places)
+        shares = np.array([np.interp(x, nodes, row) for row in np.eye(len(nodes))])
+        return Case(words, (x, force, nodes), force * shares)
+
+    return [
+        case("in the middle of two nodes", 2.25, -100.0, [0.0, 1.5, 3.0, 4.5]),
+        case("nearer to one of them", 3.4, -73e3, [0.0, 2.0, 3.0, 5.0]),
+        case("at the last node", 5.0, -10.0, [0.0, 2.0, 3.0, 5.0]),
+    ]
+
+
 TRIALS = {
     "frequencies": Trial(_frequencies),
     "notch_shape": Trial(_notch_shape),
@@ -237,5 +266,7 @@ TRIALS = {
     "rayleigh_coefficients": Trial(_rayleigh_coefficients, ("alpha", "beta")),
     "static_moment": Trial(_static_moment),
     "fixed_point": Trial(_fixed_point),
+    "one_force": Trial(_one_force, ("sag", "moment")),
+    "lever_rule": Trial(_lever_rule),
 }
 """The functions that exercises ask for, by the name that each bears in its notebook."""

@@ -32,7 +32,7 @@ def moving_force_rows() -> list[Row]:
         theirs = odd @ moving_force(beam, speed, run.time, ratio)[0]
         on = run.time <= beam.length / speed
         damped = f", damping {ratio:.0%}" if ratio else ""
-        case = f"Moving force, alpha = {alpha:g}{damped}"
+        case = f"Moving force, speed ratio {alpha:g}{damped}"
         parts = [("largest mid-span deflection / static", on)]
         if alpha == 0.5:
             parts.append(("the same after the force has left", ~on))
@@ -88,8 +88,8 @@ def axle_train_rows() -> list[Row]:
         A = (2 P / m L) Omega / (omega |omega^2 - Omega^2|) sqrt(2 + 2 cos(omega L / v)),
 
     which vanishes at ``omega L / v = (2 j + 1) pi``: v = 2 f L / (2 j + 1), j = 1, 2 ... N forces
-    d apart leave ``A |sin(N phi / 2) / sin(phi / 2)|`` with phi = omega d / v: N times A at
-    v = f d / i (Yang, Yau & Hsu 1997).
+    D apart leave ``A |sin(N phi / 2) / sin(phi / 2)|`` with phi = omega D / v: N times A at
+    v = f D / i (Yang, Yau & Hsu 1997).
     """
     beam = force_beam()
     deck, omega = deck_of(beam, 1), beam.omega(1)
@@ -118,7 +118,7 @@ def axle_train_rows() -> list[Row]:
     for i in (1, 2):
         speed = frequency * spacing / i
         ours = _left_by_axles(speed, axles, spacing, deck) / left_by_one_axle(speed)
-        quantity = f"{axles} axles at f d / {i}: amplitude left / one axle's"
+        quantity = f"{axles} axles at f D / {i}: amplitude left / one axle's"
         why = "all N forces add up; load sampled every 1 ms"
         rows.append(Row("Axle train", quantity, "", float(axles), float(ours), why, _YANG, 1e-4))
         room = 0.4 / axles / i
@@ -128,7 +128,7 @@ def axle_train_rows() -> list[Row]:
             method="bounded",
             options={"xatol": 1e-4},
         ).x
-        quantity = f"resonance speed f d / {i}"
+        quantity = f"resonance speed f D / {i}"
         why = "one axle's own curve pulls a finite train's peak by 1/N^2"
         rows.append(Row("Axle train", quantity, "m/s", speed, float(ours), why, _YANG, 4e-3))
     return rows
