@@ -41,6 +41,8 @@ def test_an_unknown_exercise_is_refused_with_the_nearest():
         exercise(1.1)
     with pytest.raises(InputError, match="is no exercise"):
         exercise(None)
+    with pytest.raises(InputError, match=r"Did you mean '1\.guess'"):
+        exercise("guess_1")
 
 
 def test_a_known_slip_has_its_own_words():

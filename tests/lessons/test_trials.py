@@ -75,7 +75,14 @@ def test_each_trial_is_passed_by_a_function_written_here():
     ("name", "wrong", "words"),
     [
         ("frequencies", lambda m, k: 2 * np.pi * frequencies(m, k), "2 pi times off"),
-        ("frequencies", lambda m, k: frequencies(m, k)[:1], "case 2|Case 2.*1 numbers"),
+        (
+            "frequencies",
+            lambda m, k: frequencies(m, k)[:1],
+            "Case 2.*it returns one number, 2 numbers are expected",
+        ),
+        ("frequencies", lambda m, k: frequencies(m, k)[::-1], "not in the order asked for"),
+        ("notch_shape", lambda x, a, b: notch_shape(x % b, a, b), "must be zero where it is not"),
+        ("notch_shape", lambda x, a, b: 0 * x, "is zero where it must not be"),
         ("notch_shape", lambda x, a, b: -notch_shape(x, a, b), "the sign is not"),
         ("notch_shape", lambda x, a, b: 2 * notch_shape(x, a, b), "twice or half"),
         ("condense", lambda *a: condense(*a)[:3], "it returns 3 numbers, 5 numbers are expected"),

@@ -17,6 +17,7 @@ the solutions in the notebooks: a test runs each of these and checks it.
 
 from __future__ import annotations
 
+import re
 import tomllib
 from dataclasses import dataclass, replace
 from functools import cache
@@ -74,10 +75,14 @@ class Number:
 
 @dataclass(frozen=True)
 class Numbers:
-    """Several numbers are asked for, in a given order; `within`, `near` as in `Number`."""
+    """Several numbers are asked for, in a given order; `within`, `near` as in `Number`.
+
+    `hints` are said of the wrong ones, each of its own.
+    """
 
     numbers: tuple[float, ...]
     names: tuple[str, ...] = ()
+    hints: tuple[str, ...] = ()
     unit: str = ""
     within: float = 5e-3
     near: float = 0.0
@@ -85,6 +90,7 @@ class Numbers:
     def reply(self, given: Any) -> Reply:
         """Return what is said of an answer."""
         options = {"within": self.within, "near": self.near, "unit": self.unit}
+        options["hints"] = self.hints
         return list_reply(given, self.numbers, self.names, **options)
 
 
@@ -185,9 +191,9 @@ def _exercise(name: str, table: dict[str, Any]) -> Exercise:
     added = {k: table.pop(k) for k in ("right", "hint", "marks") if k in table}
     if name.endswith(".guess"):
         added["marks"] = 0
-    for slips in ("numbers", "names"):
-        if slips in table:
-            table[slips] = tuple(table[slips])
+    for listed in ("numbers", "names", "hints"):
+        if listed in table:
+            table[listed] = tuple(table[listed])
     if "slips" in table:
         table["slips"] = tuple(Slip(**slip) for slip in table["slips"])
     if key == "choice":
@@ -207,6 +213,9 @@ def exercise(name: Any) -> Exercise:
     if isinstance(name, (int, float)):
         allowed = "must be text: the number of the exercise in quotes"
         raise InputError("exercise", name, allowed, f'Write rb.check("{name}", ...)')
+    guess = re.fullmatch(r"guess_?(\d+)", name) if isinstance(name, str) else None
+    if guess:
+        raise InputError("exercise", name, "is no exercise", f"Did you mean '{guess[1]}.guess'?")
     if not isinstance(name, str) or name not in known:
         raise InputError("exercise", name, "is no exercise", did_you_mean(str(name), known))
     return known[name]

@@ -20,8 +20,9 @@ FACTORS = (
     (3.6, "3.6 times off: is it km/h where m/s is asked, or the other way round?"),
     (9.81, "9.81 times off: is it a mass where a force is asked, or the other way round?"),
     (180 / np.pi, "57.3 times off: is it in degrees where radians are asked, or the other way?"),
-    (2.0, "twice or half of it: one side or both, an amplitude or a range?"),
-    (np.sqrt(2.0), "the square root of two off: an amplitude or an effective value?"),
+    (2.0, "exactly twice or half of it: a factor of two is lost, or used twice."),
+    (np.sqrt(2.0), "the root of two off: a factor of two is lost, or used twice, under a root."),
+    (np.sqrt(1e3), "the root of 1000 off: kN/m where N/m belongs, or t where kg belongs?"),
 )
 """What a unit or a convention may be off by, and the question to ask."""
 
@@ -136,16 +137,23 @@ def number_reply(
     sign = "" if ratio > 0 else "the sign is wrong, and "
     if slip := _slip(abs(ratio), about, unit):
         return Reply(0.0, sign + slip)
+    if _is_rounded(value, expected):
+        return Reply(0.0, "close, but rounded too much: give three digits.")
     off = _too_much(abs(ratio), expected > 0 and ratio > 0)
     return Reply(0.0, f"{sign}{off}{_asked(unit)}.", hinted=True)
+
+
+def _is_rounded(value: float, expected: float) -> bool:
+    """Whether a number is the right one with one or two digits."""
+    return any(value == float(f"{expected:.{digits}g}") for digits in (1, 2))
 
 
 def _slip(ratio: float, about: float, unit: str) -> str:
     """Return what is said of a size that is `ratio` times the right one by a slip, or nothing."""
     power = round(np.log10(ratio))
     if power and abs(ratio / 10.0**power - 1.0) <= about:
-        asked = "the answer is asked as a plain number" if unit in ("", "-") else f"asked: {unit}"
-        return f"the digits are right, but a power of ten is not; {asked}."
+        asked = "; look at its unit" if unit in ("", "-") else f"; asked: {unit}"
+        return f"the digits are right, but a power of ten is not{asked}."
     for factor, question in FACTORS:
         if min(abs(ratio / factor - 1.0), abs(ratio * factor - 1.0)) <= about:
             return question
@@ -200,6 +208,7 @@ def list_reply(
     within: float = 5e-3,
     near: float = 0.0,
     unit: str = "",
+    hints: tuple[str, ...] = (),
 ) -> Reply:
     """Return the reply to several numbers; its score is the share of them that are right.
 
@@ -212,6 +221,8 @@ def list_reply(
         What each of them is; "number 2" where there is no name.
     within, near, unit
         As for `number_reply`.
+    hints : tuple of str
+        Said of each wrong number that a hint on the matter helps.
     """
     if is_open(given):
         return UNANSWERED
@@ -228,10 +239,25 @@ def list_reply(
     if good == len(replies):
         return Reply(1.0, "right.")
     called = names or tuple(f"number {i}" for i in range(1, len(expected) + 1))
+    if _is_another_order(values, expected, options):
+        order = ", ".join(called) if names else "that of the question"
+        return Reply(0.0, f"the numbers are right, but their order is not. Asked: {order}.")
+    parts = zip(called, replies, hints or ("",) * len(called), strict=True)
     wrong = [
-        f"{name}: {reply.says}"
-        for name, reply in zip(called, replies, strict=True)
+        f"{name}: {reply.says} {hint * reply.hinted}".strip()
+        for name, reply, hint in parts
         if not reply.right
     ]
     says = f"{good} of {len(replies)} right. " + " ".join(wrong)
     return Reply(good / len(replies), says, hinted=any(reply.hinted for reply in replies))
+
+
+def _is_another_order(values: list[Any], expected: tuple[float, ...], options: dict) -> bool:
+    """Whether each right number is there, at another place."""
+    left = list(values)
+    for right in expected:
+        found = [i for i, value in enumerate(left) if number_reply(value, right, **options).right]
+        if not found:
+            return False
+        del left[found[0]]
+    return True

@@ -102,23 +102,22 @@ def _fault(trial: Trial, case: Case, given: Callable) -> str:
         return "what it returns are no real numbers."
     expected = np.asarray(case.expected, dtype=float)
     if values.shape != expected.shape:
-        return f"it returns {_shape(values)}, {_shape(expected)} {_is_are(expected)} expected."
+        verb = "is" if expected.size == 1 else "are"
+        return f"it returns {_shape(values)}, {_shape(expected)} {verb} expected."
     if not np.isfinite(values).all():
         return "what it returns is not finite: is something divided by zero?"
     return _difference(trial, values, expected)
 
 
 def _shape(values: np.ndarray) -> str:
-    if values.ndim == 0:
+    if values.size == 1:
         return "one number"
     return " x ".join(map(str, values.shape)) + " numbers"
 
 
-def _is_are(values: np.ndarray) -> str:
-    return "are" if values.ndim else "is"
-
-
 def _difference(trial: Trial, values: np.ndarray, expected: np.ndarray) -> str:
+    if values.ndim and not trial.parts and _reordered(trial, values, expected):
+        return "the numbers are right, but not in the order asked for."
     if trial.parts:  # each part is compared with its own size
         pairs = zip(trial.parts, values, expected, strict=True)
     else:
@@ -129,9 +128,20 @@ def _difference(trial: Trial, values: np.ndarray, expected: np.ndarray) -> str:
         if np.max(off) > trial.within * (np.abs(right).max() or scale or 1.0):
             worst = np.unravel_index(np.argmax(off), off.shape)
             near = trial.within * (scale or 1.0)
+            if abs(right[worst]) <= near:
+                return f"{part}: ".removeprefix(": ") + "it must be zero where it is not."
+            if abs(value[worst]) <= near:
+                return f"{part}: ".removeprefix(": ") + "it is zero where it must not be."
             said = number_reply(value[worst], right[worst], within=trial.within, near=near).says
             return f"{part}: {said}" if part else said
     return ""
+
+
+def _reordered(trial: Trial, values: np.ndarray, expected: np.ndarray) -> bool:
+    """Whether wrong values become right when both are sorted."""
+    limit = trial.within * np.abs(expected).max()
+    close = np.abs(np.sort(values.ravel()) - np.sort(expected.ravel())).max() <= limit
+    return bool(close and np.abs(values - expected).max() > limit)
 
 
 # ---- the functions, in the order of the notebooks
