@@ -100,7 +100,8 @@ def test_nbgrader_finds_where_answers_and_marks_stand(path, make):
         assert each["solution"] is not each["locked"]
         assert ("points" in each) is each["grade"]
     assert not any(each["grade"] for each in known if each["grade_id"].endswith("guess"))
-    assert any(each["grade"] for each in known)
+    worth = [exercise_of(cell).marks for cell in made["cells"] if exercise_of(cell)]
+    assert sum(each.get("points", 0) for each in known) == sum(worth)
 
 
 def test_the_words_of_a_solution_are_comments_of_its_code():
