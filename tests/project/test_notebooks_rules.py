@@ -63,7 +63,7 @@ PAGES = {
     # The loop twice: once in fifteen lines without the suite.
     "06": Page(words=(500, 2000), code_lines=(40, 180)),
     # Every table and result of the paper, each with its picture and its layout.
-    "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3200), (20, 340), (), ("You need", "Time")),
+    "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3100), (20, 320), (), ("You need", "Time")),
     "09": Page((GOALS, CHECK, EXERCISES, FOUND, REFERENCES, SYMBOLS), (500, 3000), (20, 280)),
     # The other program that the page needs is written out on it.
     "12": Page(code_lines=(40, 170)),
