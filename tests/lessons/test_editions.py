@@ -46,7 +46,7 @@ def test_a_student_gets_no_outputs_and_no_solutions(path):
     assert "Solution" not in text(made) and "BEGIN SOLUTION" not in text(made)
     assert not any(cell.get("outputs") for cell in made["cells"])
     assert all(cell.get("execution_count") is None for cell in made["cells"])
-    assert "<summary>Hint" in text(made), "hints stay"
+    assert ("<summary>Hint" in text(made)) is ("### Exercise" in text(made)), "hints stay"
 
 
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
