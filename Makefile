@@ -19,8 +19,8 @@ help:  ## list these targets
 env:  ## create or update .venv (every target below does this first)
 	@$(PYTHON) tools/bootstrap.py
 
-lab: env  ## open JupyterLab on the first notebook
-	$(BIN)/python -m jupyterlab --LabApp.default_url=/lab/tree/notebooks/00_start_here.ipynb $(ARGS)
+lab: env  ## open JupyterLab on notebooks of your own: copies in my-notebooks
+	$(BIN)/python tools/lab.py $(ARGS)
 
 app: env  ## show the explorer of notebook 00 as a web page, for the projector
 	$(BIN)/python tools/app.py $(ARGS)

@@ -1,5 +1,8 @@
 """The modal deck: Rayleigh damping, shapes, moving loads and the static correction."""
 
+from dataclasses import replace
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -309,3 +312,62 @@ def test_a_history_is_a_table_over_time():
     frame = history.to_frame()
     assert frame.index.name == "t (s)" and frame.index.tolist() == [0.0, 0.5]
     assert frame["a (kN)"].tolist() == [1.0, 2.0]
+
+
+def test_an_influence_line_is_read_by_name():
+    """Of a simple beam they are in every table: P a b / L, and W L^3 / 48 E I below the load."""
+    deck, length = rb.deck("viaduct36"), 36.0
+    x = np.array([9.0, 18.0, 30.0])
+    roof = -np.array([4.5, 9.0, 3.0])
+    moment = deck.influence("moment_vertical", at=18.0, places=x)
+    assert moment == pytest.approx(-roof, rel=1e-9)  # an upward load makes it hog
+    sag = deck.influence("displacement_z", at=18.0, places=[18.0])
+    assert sag == pytest.approx(length**3 / (48 * 35e9 * 2.553), rel=1e-6)
+    share = deck.influence("force_z", at=0.0, places=x)
+    assert share == pytest.approx(-(1 - x / length), rel=1e-9)
+    twisting = deck.influence("torsion", at=0.0, places=x)
+    assert np.abs(twisting) == pytest.approx(1 - x / length, rel=1e-9)
+    sideways = deck.influence("moment_lateral", at=18.0, places=x)
+    assert np.abs(sideways) == pytest.approx(-roof, rel=1e-9)
+
+
+def test_an_influence_line_has_slope_and_curvature_and_ends_with_the_deck():
+    deck = rb.deck("viaduct36")
+    line = partial(deck.influence, "displacement_z", at=12.0)
+    x, d = np.array([7.0, 21.0]), 1e-2
+    ahead, here, behind = line(places=x + d), line(places=x), line(places=x - d)
+    slope, bend = (line(places=x, derivative=order) for order in (1, 2))
+    assert slope == pytest.approx((ahead - behind) / (2 * d), rel=1e-5)
+    assert bend == pytest.approx((ahead - 2 * here + behind) / d**2, rel=1e-4)
+    assert line(places=[-1.0, 37.0]).tolist() == [0.0, 0.0]
+    # A couple on the left track's side: a force beside the axis also twists.
+    twist = deck.influence("rotation_x", at=12.0, places=x, load="roll")
+    assert twist == pytest.approx(deck.influence("rotation_x", at=12.0, places=x))
+    assert deck.influence("rotation_x", at=12.0, places=x, load="z") == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (("displacement", 18.0, None), "displacement_z"),
+        (("displacement_z", 40.0, None), "at = 40"),
+        (("displacement_z", 18.0, "x"), "load"),
+        (("moment_lateral", 18.0, None), "no such stiffness"),
+        (("force_z", 18.0, None), "support|bearing"),
+    ],
+)
+def test_an_influence_line_that_is_not_there_is_refused(asked, said):
+    quantity, at, load = asked
+    upright = rb.Beam("upright", (L,), M, EI).deck(3, 0.02)
+    with pytest.raises(rb.InputError, match=said):
+        upright.influence(quantity, at=at, places=[9.0], load=load)
+
+
+def test_a_deck_of_modes_alone_says_what_it_lacks():
+    known = simple(0.02, 3)
+    bare = replace(known, recovery=None)
+    with pytest.raises(rb.InputError, match="only its modes are known"):
+        bare.influence("moment_vertical", at=18.0, places=[9.0])
+    assert bare.influence("displacement_z", at=18.0, places=[18.0]) == pytest.approx(
+        known.influence("displacement_z", at=18.0, places=[18.0]), rel=0.02
+    )

@@ -24,6 +24,20 @@ def test_a_message_names_field_value_range_and_remedy():
     )
 
 
+@pytest.mark.parametrize(
+    ("given", "shown"),
+    [
+        (np.float64(-3.0), "-3.0"),
+        (np.int64(-3), "-3"),
+        (np.array([1.0, 2.0]), "[1.0, 2.0]"),
+        (np.array(5.0), "5.0"),
+        ("x" * 60, f"'{'x' * 56}..."),
+    ],
+)
+def test_a_message_shows_a_value_as_it_would_be_typed(given, shown):
+    assert str(InputError("x", given, "no")) == f"x = {shown}: no."
+
+
 @pytest.mark.parametrize("good", [3, 3.0, np.float32(3), np.int64(3), np.float64(3)])
 def test_numbers_of_any_kind(good):
     assert errors.number("x", good) == 3.0 and type(errors.number("x", good)) is float
@@ -131,6 +145,7 @@ class Example:
     side: Literal["left", "right"] = "left"
     shown: bool = True
     other: object = None
+    noted: Annotated[object, "shape (n,)"] = None
 
     def __post_init__(self):
         errors.check_fields(self)
@@ -140,6 +155,7 @@ def test_a_dataclass_is_held_to_the_types_of_its_fields():
     made = Example(np.float32(2), [1, 2])
     assert (made.size, made.place, made.count) == (2.0, (1.0, 2.0), None)
     assert type(made.size) is float and type(made.place) is tuple
+    assert Example(1.0, other=made, noted=made).noted is made
     for given, words in [
         ({"size": 0}, "size = 0: must be a finite number above 0 m"),
         ({"place": [1.0]}, "place = .*must hold 2 numbers"),
@@ -173,6 +189,17 @@ def test_a_place_off_the_deck_is_refused_with_digits_enough_to_see_why(value):
         errors.places("x", [1.0, value], (0.0, 36.6))
     with pytest.raises(InputError, match=r"at most 36\.599999 m"):
         errors.place("x", 36.6, (0.0, 36.599999))
+
+
+@pytest.mark.parametrize("value", ["18", np.nan, 40.0, -1.0])
+def test_a_place_that_is_refused_has_a_unit_and_a_remedy(value):
+    said = "must be a finite number( at least 0 and at most 36.6| in) m. Count from the first end."
+    remedy = "Count from the first end"
+    with pytest.raises(InputError, match=rf"^x( = .*|): {said}$"):
+        errors.place("x", value, (0.0, 36.6), remedy=remedy)
+    if isinstance(value, float) and np.isfinite(value):
+        with pytest.raises(InputError, match=rf"^x\[2\] = .*: {said}$"):
+            errors.places("x", [1.0, value], (0.0, 36.6), remedy=remedy)
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from railbridge.beams import Section
 from railbridge.bounds import BOUNDS, doubt, first_frequencies, frequency_off
 from railbridge.cases import shelf
 from railbridge.errors import InputWarning
-from railbridge.plausibility import doubts, scale_in_doubt
+from railbridge.plausibility import doubts, longest_span, scale_in_doubt
 from railbridge.settings import check
 from railbridge.validation import crossings, references, scenarios
 
@@ -230,7 +230,7 @@ SLIPS = [
     axles("mm", [0.0, 3000.0, 14000.0, 17000.0], "mm"),
     axles("cm", [0.0, 300.0, 1400.0, 1700.0], "cm"),
     axles("km", [0.0, 0.003, 0.014, 0.017], "km"),
-    axles("a centimetre apart", [0.0, 0.03, 14.0, 14.03], "decimal point"),
+    axles("a centimetre apart", [0.0, 0.03, 14.0, 14.03], "hundred times"),
     axles("2 500 m apart", [0.0, 2500.0], "mm"),
     axles("one in mm", [0.0, 3.0, 14.0, 17000.0], "mm"),
     # vehicles
@@ -526,6 +526,61 @@ def test_modes_of_several_spans_are_held_against_one_of_them():
     assert doubted(deck) == []
     simple_spans = replace(beam, continuous=False, bearings=()).deck(10, 0.01)
     assert doubted(replace(simple_spans, supports=(), recovery=None)) == []
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_span_ends_where_the_first_shape_stands_still_whichever_way_it_is_drawn(sign):
+    x = np.linspace(0.0, 60.0, 601)
+    uneven = np.where(x < 25.0, np.sin(np.pi * x / 25), -0.7 * np.sin(np.pi * (x - 25) / 35))
+    for shape, span in [
+        (np.sin(np.pi * x / 60), 60.0), (np.sin(np.pi * x / 20), 20.0), (uneven, 35.0),
+        (1.0 - 0.5 * np.sin(np.pi * x / 20) ** 2, 60.0),  # it turns round at half its largest value
+    ]:  # fmt: skip
+        assert longest_span((), 60.0, x, sign * shape) == pytest.approx(span)
+    assert longest_span((0.0, 45.0, 15.0, 60.0), 60.0, x, sign * uneven) == 30.0
+    assert longest_span((30.0,), 60.0, x, None) == 60.0
+
+
+@pytest.mark.parametrize("length", [15.0, 36.0])
+@pytest.mark.parametrize(
+    ("factor", "reason"),
+    [
+        (1e-9, "a billion times too soft, E in GPa"),
+        (1e-6, "a million times too soft, given in MN m2, or E in MPa"),
+        (1e-3, "1000 times too soft, given in kN m2, or E in kN/m2"),
+        (1e-2, "a hundred times too soft"),
+        (20.0, "ten times too stiff"),
+        (1e2, "a hundred times too stiff"),
+        (1e3, "1000 times too stiff"),
+        (1e6, "a million times too stiff, given in N mm2"),
+        (1e12, "are stiffness, mass and lengths in SI units"),
+    ],
+)
+def test_how_many_times_too_soft_or_stiff_a_beam_is(length, factor, reason):
+    low, high = first_frequencies(length)
+    frequency = (low * high * factor) ** 0.5
+    (said,) = scale_in_doubt(simple(length, frequency))
+    assert said.field == "deck.bending_stiffness_vertical"
+    assert str(said) == (
+        f"deck.bending_stiffness_vertical gives a first vertical frequency of {frequency:.3g} Hz, "
+        f"bridges of {length:g} m have about {low:.2g} to {high:.2g} Hz: {reason}?"
+    )
+
+
+@pytest.mark.parametrize(
+    ("length", "frequency", "reason"),
+    [
+        (36.0, 2 * np.pi * 4.0, "given in rad/s"),
+        (36.0, (2 * np.pi * 4.0) ** 2, "squares of rad/s"),
+        (1500.0, 80.0, "lengths given in mm"),
+        (328.0, 3.15, "lengths given in feet"),
+        (36.0, 1e6, "are stiffness, mass and lengths in SI units"),
+    ],
+)
+def test_what_frequencies_and_lengths_of_other_programs_were_given_in(length, frequency, reason):
+    deck = replace(simple(length, frequency), recovery=None, mass_per_metre=None)
+    (said,) = scale_in_doubt(deck)
+    assert said.field == "deck.frequencies_hz" and str(said).endswith(f": {reason}?")
 
 
 def test_the_first_vertical_mode_is_held_against_the_span_not_the_first():

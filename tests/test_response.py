@@ -122,6 +122,18 @@ def test_critical_damping_uses_the_block_and_never_garbage():
     assert y == pytest.approx(np.exp(-5 * t) * np.array([t**2 / 2, t, np.ones_like(t)]), rel=1e-11)
 
 
+@pytest.mark.parametrize("ratio", [0.0, 0.03, 1.0, 3.0])
+def test_an_oscillator_stepped_by_its_matrices_meets_the_closed_form(ratio):
+    """``x[k+1] = E x[k] + B0 u[k] + B1 u[k+1]``, under a ramp from a start that is not rest."""
+    h, t = 0.02, 0.02 * np.arange(60)
+    e, b0, b1 = oscillator(12.0, ratio).step(h)
+    x = np.array([0.03, -0.2])
+    for k, now in enumerate(zip(*closed_form(12.0, ratio, t, *x), strict=True)):
+        if k:
+            x = e @ x + b0[:, 0] * t[k - 1] + b1[:, 0] * t[k]
+        assert x == pytest.approx(now, rel=1e-10, abs=1e-12)
+
+
 @pytest.mark.parametrize("ratio", [0.03, 1.0, 3.0])
 def test_sine_is_met_to_second_order(ratio):
     omega, drive = 12.0, 20.0

@@ -134,3 +134,64 @@ def test_histories_say_where_and_in_which_unit():
     }  # fmt: skip
     bare = rb.cross(rb.AxleTrain([0.0], [1e5]), DECK, speed=20.0, time_step=2e-3)
     assert bare.body_accelerations.shape == (0, 3, 2, len(bare.time))
+
+
+@pytest.mark.parametrize(
+    ("history", "units", "where"),
+    [
+        (RUN.displacement(4.5), {"displacement_y": "m", "displacement_z": "m", "rotation_x": "rad"},
+         "x = 4.5 m"),
+        (RUN.velocity(4.5),
+         {"velocity_y": "m/s", "velocity_z": "m/s", "velocity_roll": "rad/s"}, "x = 4.5 m"),
+        (RUN.acceleration(4.5),
+         {"acceleration_y": "m/s2", "acceleration_z": "m/s2", "acceleration_roll": "rad/s2"},
+         "x = 4.5 m"),
+        (RUN.section_forces(4.5),
+         {"moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m",
+          "shear_vertical": "N", "shear_lateral": "N"}, "x = 4.5 m"),
+        (RUN.reactions()[36.0],
+         {"force_x": "N", "force_y": "N", "force_z": "N", "moment_x": "N m"}, "bearing at 36 m"),
+        (RUN.bearing_forces()[2],
+         {"force_x": "N", "force_y": "N", "force_z": "N", "moment_x": "N m", "moment_y": "N m",
+          "moment_z": "N m"}, "bearing 2 at x = 36, y = 0, z = 0 m"),
+        (RUN.envelope("torsion", [0.0, 4.5]).at(1), {"value": ""}, "x = 4.5 m"),
+    ],
+)  # fmt: skip
+def test_what_is_asked_of_the_deck_has_units_and_a_place(history, units, where):
+    assert history.units == units and list(history.values) == list(units)
+    assert history.where == where
+    assert all(values.shape == RUN.time.shape for values in history.values.values())
+
+
+@pytest.mark.parametrize("wrong", [np.zeros(3), "front", None, 1.5, True])
+def test_what_is_no_number_of_a_wheel_is_refused(wrong):
+    run = rb.paper.run("paper", "condensed", 1)
+    with pytest.raises(rb.InputError, match="^car"):
+        run.wheel_force(wrong, 1)
+    with pytest.raises(rb.InputError, match="^wheel"):
+        run.wheel_force(1, wrong)
+
+
+@pytest.mark.parametrize("wrong", [np.zeros(2), ["displacement_z"], None, 3])
+def test_what_is_no_name_of_a_history_is_refused(wrong):
+    history = rb.paper.run("paper", "condensed", 1).displacement(18.0)
+    for ask in (history.__getitem__, history.extreme, history.extremes):
+        with pytest.raises(rb.InputError, match="no such history"):
+            ask(wrong)
+
+
+def test_a_car_moves_as_its_accelerations_say_and_the_deck_adds_to_it():
+    for run in (RUN, RUN.at(0)):
+        own = run.car_motion(2)
+        assert own.units["car z"] == "m" and own.units["car pitch"] == "rad"
+        twice = np.diff(own["car z"], 2) / run.settings.time_step**2
+        middle = run.body_accelerations[1, 1, 1, 1:-1]
+        assert twice == pytest.approx(middle, abs=0.02 * np.abs(middle).max())
+    added = RUN.car_motion(2)["car z"] - RUN.at(0).car_motion(2)["car z"]
+    entered = RUN.coupling.cars[1].window.start
+    assert not added[: entered + 1].any() and added.min() < -1e-3
+    bare = rb.cross(rb.AxleTrain([0.0], [1e5]), DECK, speed=20.0, time_step=2e-3)
+    with pytest.raises(rb.InputError, match="bare axle loads"):
+        bare.car_motion()
+    with pytest.raises(rb.InputError, match="car = 3"):
+        RUN.car_motion(3)

@@ -108,6 +108,15 @@ def test_shapes_taken_a_few_at_a_time_give_the_same(monkeypatch):
     assert few[1] == pytest.approx(whole[1], rel=1e-9, abs=1e-3)
 
 
+def test_loads_taken_a_few_at_a_time_drive_each_mode_once(monkeypatch):
+    moving = four_cars(20, 4e-3)._loads
+    x, when = np.linspace(1.0, 35.0, 29), np.arange(29) % 4
+    load = np.arange(5 * 29, dtype=float).reshape(29, 5)
+    whole = moving._modal_force(load, x, when, 4)
+    monkeypatch.setattr(statics, "_LARGEST", 48 * len(whole) * 10)
+    assert moving._modal_force(load, x, when, 4) == pytest.approx(whole, rel=1e-12)
+
+
 def test_what_happens_at_a_jump_is_told_by_the_summary():
     case = rb.case("paper").replace({"train.cars": 1, "run.speed": 80.0, "run.lead_in": 100.0})
     run = case.compute()

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import railbridge as rb
-from railbridge.trains import Passage
+from railbridge.trains import Passage, steady_motion
 
 CAR = rb.vehicle("xia2000")
 V = 20.0
@@ -216,6 +216,22 @@ def test_signs_of_the_condensed_components():
     assert of(7, 1) == pytest.approx([0, 1, -0.98, 9.05, 0])
 
 
+def test_condensed_components_have_names_and_two_places():
+    """About the centre of mass the lateral force has an arm of its height; the rest stays."""
+    car = rb.Train(CAR).car(1)
+    forces = np.random.default_rng(4).normal(size=(8, 2, 5))
+    track, centre = car.condensed(forces), car.condensed(forces, "centre")
+    assert tuple(track) == tuple(centre) == rb.CONDENSED
+    assert track["force_z"] == pytest.approx(forces[:, 1].sum(axis=0))
+    height = CAR.body.position[2]
+    assert centre["moment_x"] == pytest.approx(track["moment_x"] + height * track["force_y"])
+    for name in ("force_y", "force_z", "moment_y", "moment_z"):
+        assert centre[name] == pytest.approx(track[name])
+    assert car.condensed(forces[..., 0] * 1j)["force_y"] == pytest.approx(1j * track["force_y"][0])
+    with pytest.raises(rb.InputError, match="at"):
+        car.condensed(forces, "middle")
+
+
 def test_axle_train():
     train = rb.AxleTrain([0.0, 3.0, 14.0], [1e5, 2e5, 1e5])
     assert train.length == 14.0 and len(train.wheels) == 3
@@ -326,3 +342,25 @@ def test_a_bogie_in_millimetres_is_blamed_itself():
     parameters = rb.car_parameters("xia2000") | {"axle_spacing": 2500.0}
     with pytest.raises(rb.InputError, match=r"^vehicle x: axle_spacing = 2500\.0: must be below"):
         rb.two_bogie_car("x", **parameters)
+
+
+def test_steady_motion_obeys_newton():
+    """What the wheels press on the deck is what the bodies' masses ask for."""
+    motion, s = steady_motion(CAR, waves(14.4), V), 2j * np.pi * V / 14.4
+    force = rb.steady_forces(CAR, waves(14.4), V)[:, 1].sum()
+    inertia = sum(body.mass * s**2 * motion[f"{body.name} z"] for body in CAR.bodies)
+    assert list(motion) == list(CAR.labels) and force == pytest.approx(-inertia)
+
+
+def test_motion_on_a_rigid_deck_settles_to_the_steady_one_and_gives_the_accelerations():
+    passage = Passage(V, 2e-3, 1500, 40 * V)
+    train = rb.Train(CAR, cars=2)
+    second = train.rigid_motion(waves(14.4), passage)[1]
+    assert second.shape == (15, 1, 1500)
+    place = V * 2e-3 * np.arange(1500) - train.centres[1]
+    for name, steady in steady_motion(CAR, waves(14.4), V).items():
+        exact = (steady * np.exp(2j * np.pi * place / 14.4)).imag
+        assert second[CAR.labels.index(name), 0] == pytest.approx(exact, abs=2e-5), name
+    bounce = second[CAR.labels.index("car z"), 0]
+    middle = train.rigid_accelerations(waves(14.4), passage)[1][1, 1]
+    assert np.diff(bounce, 2) / 2e-3**2 == pytest.approx(middle[1:-1], abs=5e-3)

@@ -129,7 +129,7 @@ def motion_of(car, translation=(0, 0), roll=0.0, pitch=0.0, yaw=0.0):
 )
 def test_a_rigid_motion_of_car_and_track_stretches_nothing(motion):
     x, support = motion_of(CAR, **motion)
-    rows, k = CAR._contact_rows, CAR.contact_stiffness
+    rows, k = CAR.contact_stretch, CAR.contact_stiffness
     assert rows @ x == pytest.approx(support, abs=1e-12)
     pushed = np.einsum("wdn,wd->n", rows, k * support)
     assert CAR.stiffness_matrix @ x == pytest.approx(pushed, rel=1e-9, abs=1e-3)
@@ -247,6 +247,36 @@ def test_exercises_with_checked_answers():
     assert np.min(np.abs(two_bogie_car("swapped", **swapped).modes().frequencies_hz - 16.92)) < 0.01
     reversed_ = two_bogie_car("reversed", **{**PARAMETERS, "primary_below_bogie": -0.07})
     assert reversed_.modes().frequencies_hz[0] == pytest.approx(0.651, abs=6e-4)
+
+
+def test_a_varied_car_has_its_parameters_multiplied():
+    same = rb.varied_car("xia2000")
+    assert np.array_equal(same.stiffness_matrix, CAR.stiffness_matrix)
+    assert np.array_equal(same.mass_matrix, CAR.mass_matrix)
+    heavier = rb.varied_car("xia2000", car_body_mass=1.3, secondary_vertical_damping=0.5)
+    assert heavier.bodies[0].mass == pytest.approx(1.3 * 50990)
+    assert heavier.bodies[1:] == CAR.bodies[1:] and heavier.name == "xia2000 varied"
+    halved = {s.damping[1] for s in heavier.springs if not s.on_rail}
+    assert halved == {15e3} and {s.damping[1] for s in heavier.springs if s.on_rail} == {15e3}
+    assert rb.varied_car("xia2000", secondary_lateral_damping=0.0).springs[0].damping[0] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("factors", "says"),
+    [
+        (
+            {"car_mass": 1.3},
+            "xia2000: car_mass = 1.3: is no parameter of this car. Did you mean 'car_body_mass'?",
+        ),
+        ({"car_body_mass": -1}, "car_body_mass = -1: must be a finite number at least 0."),
+        ({"car_body_mass": "30 %"}, "car_body_mass = '30 %': must be a finite number"),
+        ({"car_body_mass": 0}, "vehicle xia2000 varied: car_body_mass = 0.0: must be a finite"),
+    ],
+)
+def test_a_car_is_not_varied_in_what_it_does_not_have(factors, says):
+    with pytest.raises(rb.InputError) as refused:
+        rb.varied_car("xia2000", **factors)
+    assert str(refused.value).startswith(says)
 
 
 def test_sprung_mass_closed_form():
@@ -392,3 +422,11 @@ def test_every_coach_of_an_articulated_train_is_a_car_body():
         ("front", 7.8), ("middle", 0.0), ("rear", -7.8),
     ]  # fmt: skip
     assert [b.name for b in rb.vehicle("sprung_mass").car_bodies] == ["mass"]
+
+
+def test_motion_of_a_mass_on_a_spring_is_the_textbook_s():
+    mass, k, c, f = 5e3, 1.2e6, 3e4, 2.0
+    car, s = rb.sprung_mass("m", mass, k, c), 2j * np.pi * f
+    assert car.motion(f).shape == (1, 1, 2)
+    assert car.motion(f)[0, 0, 1] == pytest.approx((c * s + k) / (mass * s**2 + c * s + k))
+    assert CAR.motion(0.0)[CAR.labels.index("car z"), :, 1].sum() == pytest.approx(1.0)

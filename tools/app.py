@@ -41,10 +41,9 @@ body { background: white !important; color: #222 !important; }
 .rb-head { font-size: clamp(13px, 1.02vw, 22px); }
 .rb-head h1 { font-size: 1.5em; margin: 6px 0 4px; }
 .rb-head p { margin: 0 0 6px; }
-.rb-panel { margin: 0 12px !important; overflow: visible !important; }
+.rb-panel { margin: 0 12px !important; }
 .rb-panel { --jp-widgets-inline-width-short: 4em; --jp-widgets-inline-height: 2.15em; }
-.rb-panel .rb-main { max-width: calc((100vh - 11.5em) * 1.96) !important; }
-.rb-panel .rb-summary, .rb-panel .rb-error { line-height: 1.3; }
+.rb-panel { --rb-bars: 7.2em; --rb-widest: 100%; --rb-beside: 20em; }
 </style>"""
 HEAD = """<div class="rb-head">
 <h1>What does a train do to a railway bridge, and what does the bridge do back?</h1>

@@ -301,7 +301,7 @@ def lay_out(pages=PAGES, teacher=False):
     for name, text in api_pages().items():
         (pages / "api" / f"{name}.rst").write_text(text, encoding="utf-8")
     # What the pages link to.
-    for name in ("data", "docs", "tests", "tools"):
+    for name in ("binder", "data", "docker", "docs", "tests", "tools"):
         shutil.copytree(
             ROOT / name,
             pages / name,

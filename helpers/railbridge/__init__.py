@@ -37,7 +37,7 @@ _ROOMS = {
     "boxes": ("Box", "BoxMesh", "Pads"),
     "cases": (
         "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table",
-        "planar_car", "sprung_mass", "summarize", "two_bogie_car", "vehicle",
+        "planar_car", "sprung_mass", "summarize", "two_bogie_car", "varied_car", "vehicle",
     ),
     "lessons": ("check",),
     "validation": ("compared",),
@@ -63,7 +63,7 @@ __all__ = [
     "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box", "car_parameters", "case",
     "check", "compared", "cross", "data_root", "deck", "deck_from_table", "deviation_percent",
     "planar_car", "rayleigh", "rayleigh_ratio", "remarks", "sprung_mass", "steady_forces",
-    "summarize", "two_bogie_car", "vehicle",
+    "summarize", "two_bogie_car", "varied_car", "vehicle",
 ]  # fmt: skip
 
 

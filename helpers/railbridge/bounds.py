@@ -66,7 +66,9 @@ class Bound:
         """Return in words what was probably done wrong, as a question."""
         low, high = self.usual or (self.low, self.high)
         likely = [words for factor, words in self.slips if low <= abs(value) * factor <= high]
-        question = " or ".join(likely[:2]).replace(" or given in ", " or ")
+        question = " or ".join(likely[:2])
+        if question.startswith("given in"):
+            question = question.replace(" or given in ", " or ")
         return (question or "is its decimal point right") + "?"
 
 
@@ -156,7 +158,7 @@ BOUNDS = {
     "axle_gap": Bound(
         "smallest distance of neighbouring axles", 0.3, 40.0, "m",
         "wheels of 0.7 m; 30 m where one force stands for a car",
-        (*_IN_M, (1e2, "is its decimal point right"), (1e3, "given in km")), (1.0, 30.0),
+        (*_IN_M, (1e2, "a hundred times too small"), (1e3, "given in km")), (1.0, 30.0),
     ),
     "axle_reach": Bound(
         "largest distance of neighbouring axles in a car", 0.0, 50.0, "m", "the longest coaches",

@@ -243,18 +243,26 @@ class Coupling:
         Each shape (places, 2, samples), places as for `Vehicle.sampled_body`. Each car runs on over
         the level track behind the deck. None of bare axle loads.
         """
-        result = []
-        for c in self.cars:
-            if c.respond is None:
-                continue
-            met = self.support_input(state, [c])[:, :, 0]
-            u = np.zeros((*met.shape[:2], len(self.time) - c.window.start))
-            u[..., : met.shape[2]] = met
-            added = np.zeros((len(c.car.vehicle.body_places), 2, len(self.time)))
-            respond = c.car.vehicle.sampled_body(self.settings.time_step)
-            added[..., c.window.start :] = respond(u)
-            result.append(added)
-        return result
+        cars = [c for c in self.cars if c.respond is not None]
+        return [self._due_to(state, c, Vehicle.sampled_body) for c in cars]
+
+    def motion(self, state: DeckState, c: CoupledCar) -> np.ndarray:
+        """Return what the deck's motion adds to that of a car, m and rad.
+
+        Shape (freedoms, 1, samples), as for `Vehicle.sampled_motion`, over the level track behind
+        the deck too.
+        """
+        return self._due_to(state, c, Vehicle.sampled_motion)
+
+    def _due_to(
+        self, state: DeckState, c: CoupledCar, response: Callable[[Vehicle, float], WheelResponse]
+    ) -> np.ndarray:
+        """Return what a car answers to the deck's motion alone, over all samples."""
+        met = self.support_input(state, [c])[:, :, 0]
+        u = np.zeros((*met.shape[:2], len(self.time) - c.window.start))
+        u[..., : met.shape[2]] = met
+        own = response(c.car.vehicle, self.settings.time_step)(u)
+        return np.pad(own, ((0, 0), (0, 0), (c.window.start, 0)))
 
     def change(self, new: ForcesAdded, old: ForcesAdded) -> float:
         """Return the largest, over wheels and directions, of rms(new - old) / rms(force - static).

@@ -32,13 +32,13 @@ import numpy as np
 
 from . import errors
 from .errors import InputError, Range, Remark, ResultWarning, brief, frozen
-from .guideways import Guideway, PiecewiseCubic
+from .guideways import COMPONENTS, Guideway, PiecewiseCubic
 from .response import SampledModes, lagged, sampled_modes
 
 __all__ = [
     "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
-    "ModesOnly", "RATIO", "Recovery", "checked_damping", "cut_group", "damping_ratios", "rayleigh",
-    "rayleigh_ratio", "whole_group",
+    "ModesOnly", "RATIO", "Recovery", "checked_damping", "cut_group", "damping_ratios", "load_of",
+    "rayleigh", "rayleigh_ratio", "whole_group",
 ]  # fmt: skip
 
 SECTION_QUANTITIES = {
@@ -49,6 +49,13 @@ REACTION_QUANTITIES = {"force_x": "N", "force_y": "N", "force_z": "N", "moment_x
 """What a deck recovers at a section and at a bearing line, with units."""
 BEARING_QUANTITIES = {**REACTION_QUANTITIES, "moment_y": "N m", "moment_z": "N m"}
 """What a deck recovers of one bearing, with units; moments about the bearing itself."""
+
+
+def load_of(quantity: str) -> str:
+    """Return the load of a quantity's own direction, one of `guideways.COMPONENTS`."""
+    if quantity.endswith(("_z", "vertical")):
+        return "z"
+    return "roll" if quantity in ("rotation_x", "torsion", "moment_x") else "y"
 
 
 _EQUAL = 1e-5
@@ -246,7 +253,7 @@ class History:
     jumps: Callable[[str], tuple[np.ndarray, np.ndarray]] | None = field(default=None, repr=False)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self.values:
+        if not isinstance(name, str) or name not in self.values:
             raise InputError(
                 "name", name, "no such history", errors.did_you_mean(name, self.values)
             )
@@ -336,6 +343,57 @@ class Deck(Guideway):
             "name": self.mode_names,
         }
         return pd.DataFrame(columns, index=pd.RangeIndex(1, len(self.mode_names) + 1, name="mode"))
+
+    def influence(
+        self,
+        quantity: str,
+        *,
+        at: float,
+        places: np.ndarray,
+        load: str | None = None,
+        derivative: int = 0,
+    ) -> np.ndarray:
+        """Return an influence line: a result at one place under a unit load at each of many.
+
+        Parameters
+        ----------
+        quantity : str
+            A displacement or section force at x = `at`, or a reaction (``force_z``) of the bearing
+            line there.
+        at : float
+            m.
+        places : ndarray, shape (n,)
+            Where the load stands, m; off the deck it does nothing.
+        load : {"y", "z", "roll"}, optional
+            A force of 1 N to the left or upwards, or a couple of 1 N m about the axis; if not given
+            the one of the quantity's own direction.
+        derivative : int
+            1 and 2 for the line's slope and curvature along the deck, per m and per m2.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            The quantity's unit per N or per N m: m/N for a displacement.
+
+        Raises
+        ------
+        InputError
+            A quantity that the deck cannot recover, or has no stiffness or bearing for.
+        """
+        errors.choice("quantity", quantity, [*SECTION_QUANTITIES, *REACTION_QUANTITIES])
+        load = load_of(quantity) if load is None else errors.choice("load", load, COMPONENTS)
+        is_reaction = quantity in REACTION_QUANTITIES
+        recover = self.recovery.reaction if is_reaction else self.recovery.section
+        line = recover(quantity, errors.place("at", at, (0.0, self.length)))
+        if line is None and self.recovery.lacks:
+            raise InputError("deck", self.name, self.recovery.lacks)
+        if line is None:
+            allowed = "the deck has no such stiffness or bearing there"
+            raise InputError("quantity", quantity, allowed)
+        along = errors.numbers("places", places, unit="m")
+        derivative = errors.integer("derivative", derivative, most=2)
+        of_one_output = line.influence(along, derivative)[:, 0]
+        return of_one_output[:, COMPONENTS.index(load)]
 
     def sampled(self, time_step: float) -> SampledModes:
         """What gives modal coordinates and velocities from modal forces, at a time step (s)."""

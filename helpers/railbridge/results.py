@@ -226,8 +226,9 @@ class Crossing:
 
         Car and wheel are numbered from 1.
         """
+        chosen = errors.integer("car", car, least=1), errors.integer("wheel", wheel, least=1)
         for w, forces in zip(self.train.wheels, self.wheel_forces, strict=True):
-            if (w.car, w.number) == (car, wheel):
+            if (w.car, w.number) == chosen:
                 values = dict(zip(("force_y", "force_z"), forces, strict=True))
                 where = f"car {car}, wheel {wheel}"
                 return History(self.time, values, {"force_y": "N", "force_z": "N"}, where)
@@ -275,6 +276,26 @@ class Crossing:
             car[: len(own)] = own
         return frozen(result)
 
+    def car_motion(self, car: int = 1) -> History:
+        """Return the motion of every freedom of a car about its place at rest, m and rad.
+
+        Over the whole record, by names as in `Vehicle.labels` ("car z").
+
+        Raises
+        ------
+        InputError
+            No such car, or bare axle loads, which do not move.
+        """
+        own = self.train.car(car)
+        if own.vehicle is None:
+            raise InputError("car", car, "bare axle loads have no bodies that move")
+        motion = self.train.rigid_motion(self.track, self.settings.passage)[car - 1]
+        if self.iteration > 0:
+            motion = motion + self.coupling.motion(self._felt, self.coupling.cars[car - 1])
+        values = dict(zip(own.vehicle.labels, motion[:, 0], strict=True))
+        units = {name: "m" if name[-2:] in (" y", " z") else "rad" for name in values}
+        return History(self.time, values, units, f"car {car}")
+
     def car_forces(self, car: int = 1, at: str = "track", static: bool = True) -> History:
         """Return one car's wheel forces condensed to five components (Figures 9 to 11).
 
@@ -295,14 +316,7 @@ class Crossing:
         forces = self._wheels_of(self.coupling.cars[own.number - 1])
         if not static:
             forces = forces - own.static_forces[..., None]
-        resultant = np.tensordot(own.condensation("condensed").matrix[0], forces, 2)
-        values = dict(zip(CONDENSED, resultant, strict=True))
-        if at == "centre":
-            x, y, z = own.vehicle.body.position
-            force_y, force_z = values["force_y"], values["force_z"]
-            values["moment_x"] = values["moment_x"] - y * force_z + z * force_y
-            values["moment_y"] = values["moment_y"] + x * force_z
-            values["moment_z"] = values["moment_z"] - x * force_y
+        values = own.condensed(forces, at)
         units = {c: "N" if c.startswith("force") else "N m" for c in CONDENSED}
         return History(self.time, values, units, f"car {car}")
 

@@ -26,7 +26,7 @@ from .vehicles import Vehicle, WheelResponse
 
 __all__ = [
     "CONDENSED", "EXCITATIONS", "LOADS", "AnyTrain", "AxleTrain", "Car", "Condensation", "Passage",
-    "PlacedAxle", "Train", "Wheel", "steady_forces",
+    "PlacedAxle", "Train", "Wheel", "steady_forces", "steady_motion",
 ]  # fmt: skip
 
 CONDENSED = ("force_y", "force_z", "moment_x", "moment_y", "moment_z")
@@ -178,6 +178,33 @@ class Car:
                     matrix[s, 4, w, 0] = wheel.x - offsets[s]
         return Condensation(offsets, matrix)
 
+    def condensed(self, forces: np.ndarray, at: str = "track") -> dict[str, np.ndarray]:
+        """Return wheel forces condensed to the five components of `CONDENSED`, by name.
+
+        Parameters
+        ----------
+        forces : ndarray, shape (wheels, 2, ...)
+            N, lateral before vertical: histories, or complex amplitudes.
+        at : {"track", "centre"}
+            At rail level below the car's middle, or at the car body's centre of mass, as the paper
+            prints it (Figure 9).
+
+        Returns
+        -------
+        dict of ndarray, shape (...)
+            N and N m.
+        """
+        errors.choice("at", at, ("track", "centre"))
+        (station,) = self.condensation("condensed").matrix
+        values = dict(zip(CONDENSED, np.tensordot(station, forces, 2), strict=True))
+        if at == "centre":
+            x, y, z = self.vehicle.body.position
+            force_y, force_z = values["force_y"], values["force_z"]
+            values["moment_x"] = values["moment_x"] - y * force_z + z * force_y
+            values["moment_y"] = values["moment_y"] + x * force_z
+            values["moment_z"] = values["moment_z"] - x * force_y
+        return values
+
 
 @dataclass(frozen=True)
 class Passage:
@@ -277,6 +304,21 @@ class AnyTrain:
             return np.zeros((len(car.vehicle.body_places), 2, passage.samples))
 
         return self._on_rigid_deck(Vehicle.sampled_body, zeros, track, passage)
+
+    def rigid_motion(self, track: Track, passage: Passage) -> list[np.ndarray]:
+        """Return the motion of every car on a rigid deck, m and rad, about its place at rest.
+
+        Returns
+        -------
+        list of ndarray, one for each car, shape (freedoms, 1, samples)
+            Freedoms as in `Vehicle.labels`; none of bare axle loads.
+        """
+
+        def zeros(car: Car) -> np.ndarray:
+            freedoms = len(car.vehicle.labels) if car.vehicle else 0
+            return np.zeros((freedoms, 1, passage.samples))
+
+        return self._on_rigid_deck(Vehicle.sampled_motion, zeros, track, passage)
 
     def _on_rigid_deck(
         self,
@@ -532,6 +574,42 @@ def steady_forces(
     ------
     InputError
     """
+    frequency, met = _steady_support(vehicle, track, speed, excitation)
+    return np.tensordot(vehicle.transfer(frequency), met, 2)
+
+
+def steady_motion(
+    vehicle: Vehicle, track: Track, speed: float, excitation: str = "wheels"
+) -> dict[str, complex]:
+    """Return the steady motion of a vehicle on harmonic irregularities, in closed form.
+
+    Parameters
+    ----------
+    vehicle, track, speed, excitation
+        As for `steady_forces`.
+
+    Returns
+    -------
+    dict of complex, by freedom as in `Vehicle.labels`
+        Amplitude and phase, m or rad, about the place at rest: motion =
+        Im(A exp(i 2 pi V t / wavelength)), with the car's mid-length at x = 0 at t = 0.
+
+    Raises
+    ------
+    InputError
+    """
+    frequency, met = _steady_support(vehicle, track, speed, excitation)
+    motion = np.tensordot(vehicle.motion(frequency), met, 2)
+    return dict(zip(vehicle.labels, motion.tolist(), strict=True))
+
+
+def _steady_support(
+    vehicle: Vehicle, track: Track, speed: float, excitation: str
+) -> tuple[float, np.ndarray]:
+    """Return the frequency, Hz, and how the rail moves below every contact, m, complex.
+
+    Shape (contacts, 2), lateral before vertical.
+    """
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", vehicle, "must be a Vehicle")
     if not isinstance(track, Track):
@@ -545,12 +623,12 @@ def steady_forces(
         allowed = "the steady state in closed form needs harmonic rails of one wavelength"
         raise InputError("track", None, allowed)
     wavelength = waves.pop()
-    motion = np.zeros((len(vehicle.contacts), 2), dtype=complex)
+    met = np.zeros((len(vehicle.contacts), 2), dtype=complex)
     for i, contact in enumerate(vehicle.contacts):
         x = contact.x if excitation == "wheels" else vehicle.front
         for j, direction in enumerate(("lateral", "vertical")):
             rail = track.rail(direction, "right" if contact.y < 0 else "left")
             if hasattr(rail, "wavelength"):
                 turn = np.exp(1j * (2 * np.pi * x / wavelength + rail.phase))
-                motion[i, j] = rail.amplitude * turn
-    return np.tensordot(vehicle.transfer(speed / wavelength), motion, 2)
+                met[i, j] = rail.amplitude * turn
+    return speed / wavelength, met

@@ -335,7 +335,7 @@ class Vehicle:
         masses = zip(np.diag(self.mass_matrix), self.labels, strict=True)
         gravity = np.array([mass * G * label.endswith(" z") for mass, label in masses])
         rest = np.linalg.solve(self.stiffness_matrix, -gravity)
-        stretch = self._contact_rows @ rest
+        stretch = self.contact_stretch @ rest
         result = []
         for axle in self.axles:
             own = self.static_wheelset_mass * G / len(axle.wheels)
@@ -347,8 +347,11 @@ class Vehicle:
         return tuple(result)
 
     @cached_property
-    def _contact_rows(self) -> np.ndarray:
-        """Stretch rows of the contacts, shape (contacts, 2, n)."""
+    def contact_stretch(self) -> np.ndarray:
+        """What each freedom adds to the stretch of every contact's spring, shape (contacts, 2, n).
+
+        gamma: the stretch is ``gamma . q`` less the motion of the rail; lateral before vertical.
+        """
         return frozen(np.array([self._stretch_rows(s) for s in self._standing[1]]))
 
     @cached_property
@@ -370,7 +373,7 @@ class Vehicle:
         Both are all contacts in one row, lateral before vertical. The force on the deck without its
         static part is output minus input.
         """
-        rows = self._contact_rows.reshape(-1, len(self.labels))
+        rows = self.contact_stretch.reshape(-1, len(self.labels))
         k, c = self.contact_stiffness.reshape(-1, 1), self.contact_damping.reshape(-1, 1)
         output = np.hstack([k * rows, c * rows])
         matrices = self.mass_matrix, self.damping_matrix, self.stiffness_matrix
@@ -452,13 +455,50 @@ class Vehicle:
         state = -accelerations @ np.hstack([self.stiffness_matrix, self.damping_matrix])
         respond = replace(self.system, c=state).sampled(time_step)
         # Zero where no spring of the body ends on the rail.
-        direct = accelerations @ self._contact_rows.reshape(-1, len(self.labels)).T
+        direct = accelerations @ self.contact_stretch.reshape(-1, len(self.labels)).T
 
         def body_accelerations(u: np.ndarray) -> np.ndarray:
             inputs = u.reshape(-1, u.shape[-1])
             return (respond(inputs) + direct @ inputs).reshape(len(places), 2, -1)
 
         return body_accelerations
+
+    def sampled_motion(self, time_step: float) -> WheelResponse:
+        """Return what gives the motion of every freedom, m and rad, from ``k r + c r'``.
+
+        About the place at rest: shape (n, 1, samples) from shape (wheels, 2, samples), freedoms as
+        in `labels`.
+
+        Parameters
+        ----------
+        time_step : float
+            s.
+        """
+        count = len(self.labels)
+        respond = replace(self.system, c=np.eye(count, 2 * count)).sampled(time_step)
+
+        def motion(u: np.ndarray) -> np.ndarray:
+            return respond(u.reshape(-1, u.shape[-1]))[:, None]
+
+        return motion
+
+    def motion(self, frequency_hz: float) -> np.ndarray:
+        """Return the steady motion of every freedom for unit harmonic support motion.
+
+        Parameters
+        ----------
+        frequency_hz : float
+
+        Returns
+        -------
+        ndarray, shape (n, contacts, 2), complex
+            Motion (m or rad) of a freedom, as in `labels`, for 1 m at a contact and direction;
+            lateral before vertical.
+        """
+        rows, s, impedance = self._at_frequency(frequency_hz)
+        dynamic = self.mass_matrix * s**2 + self.damping_matrix * s + self.stiffness_matrix
+        motion = np.linalg.solve(dynamic, rows.T * impedance)
+        return motion.reshape(len(rows.T), len(rows) // 2, 2)
 
     def transfer(self, frequency_hz: float) -> np.ndarray:
         """Return the steady contact forces for unit harmonic support motion.
@@ -473,13 +513,16 @@ class Vehicle:
             Force on the deck (N) at a contact and direction for 1 m at another contact and
             direction; lateral before vertical.
         """
-        rows = self._contact_rows.reshape(-1, len(self.labels))
-        s = 2j * np.pi * errors.number("frequency_hz", frequency_hz, unit="Hz")
-        dynamic = self.mass_matrix * s**2 + self.damping_matrix * s + self.stiffness_matrix
-        impedance = (self.contact_stiffness + self.contact_damping * s).ravel()
-        through = rows @ np.linalg.solve(dynamic, rows.T)
-        forces = impedance[:, None] * through * impedance - np.diag(impedance)
+        rows, _, impedance = self._at_frequency(frequency_hz)
+        through = rows @ self.motion(frequency_hz).reshape(rows.shape[::-1])
+        forces = impedance[:, None] * through - np.diag(impedance)
         return forces.reshape((len(rows) // 2, 2) * 2)
+
+    def _at_frequency(self, frequency_hz: float) -> tuple[np.ndarray, complex, np.ndarray]:
+        """Return rows of the contacts' stretch, the exponent, and k + c s of every contact."""
+        rows = self.contact_stretch.reshape(-1, len(self.labels))
+        s = 2j * np.pi * errors.number("frequency_hz", frequency_hz, unit="Hz")
+        return rows, s, (self.contact_stiffness + self.contact_damping * s).ravel()
 
     # ---- modes
 

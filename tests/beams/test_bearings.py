@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 import railbridge as rb
-from railbridge.beams.bearings import FIXITIES, null_space, on_deck
+from railbridge.beams.bearings import FIXITIES, free_motions, null_space, on_deck
 
 L, M, E = 36.0, 12e3, 35e9
 EI, EIZ, GJ, EA, INERTIA = E * 2.553, E * 25.53, E / 2.4 * 5.59, E * 4.8, 2500 * 28.083
@@ -554,6 +554,21 @@ def test_a_mechanism_is_refused_with_the_way_it_moves(bearings, free):
     with pytest.raises(rb.InputError, match=f"from {free}, so") as error:
         deck_on(*bearings)
     assert "bearings" in error.value.field and error.value.remedy
+
+
+@pytest.mark.parametrize("x", [0.0, 12.0])
+@pytest.mark.parametrize(
+    ("freedom", "motion"),
+    [
+        ("x", "sliding along x"), ("y", "moving along y"), ("z", "moving along z"),
+        ("roll", "rolling"), ("pitch", "pitching"), ("yaw", "yawing"),
+    ],
+)  # fmt: skip
+def test_one_bearing_that_holds_all_but_one_freedom_leaves_that_motion(freedom, motion, x):
+    held = tuple(name for name in FIXITIES if name != freedom)
+    every = ("axial", "lateral", "vertical", "torsion")
+    assert free_motions([rb.Bearing(x, held)], every, 36.0, 0.4, {}) == [motion]
+    assert free_motions([rb.Bearing(x, FIXITIES)], every, 36.0, 0.4, {}) == []
 
 
 def test_two_bearings_abreast_keep_the_deck_from_rolling_and_a_lengthwise_pair_from_yawing():

@@ -1,5 +1,8 @@
 """How many modes are kept where nobody says it."""
 
+import re
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -62,8 +65,24 @@ def test_a_vertical_mode_is_there_however_many_others_come_first():
     )
     deck = soft.deck(damping=0.01)
     assert kinds(deck)["vertical"] >= 6 and deck.has["z"]
-    with pytest.raises(rb.InputError, match=r"modes = 3: none of so few moves up and down. Take"):
+    few = "^modes = 3: none of so few moves up and down. Take"
+    with pytest.raises(rb.InputError, match=f"{few} more, or leave modes out"):
         soft.deck(3)
+    soft = replace(soft, elements=10)  # all its modes are known, so also the first that would do
+    with pytest.raises(rb.InputError, match=few) as said:
+        soft.deck(3)
+    least = int(re.search(r"Take at least (\d+), or leave modes out\.", str(said.value))[1])
+    assert least >= 7 and soft.deck(least).has["z"]
+    with pytest.raises(rb.InputError, match=f"Take at least {least}, "):
+        soft.deck(least - 1)
+
+
+def test_more_modes_than_the_mesh_has_are_refused_with_their_number():
+    beam = spans(1, elements=4)
+    most = len(beam.modes.names)
+    assert len(beam.deck(most).frequencies_hz) == most
+    with pytest.raises(rb.InputError, match=rf"^modes = {most + 1}: the mesh has {most} modes tha"):
+        beam.deck(most + 1)
 
 
 def test_few_modes_of_a_short_stiff_deck_do():

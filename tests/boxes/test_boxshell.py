@@ -31,7 +31,10 @@ def test_shell_weighs_what_the_drawing_says():
 def test_mesh_converges_at_fixed_pads():
     """Each refinement moves the lowest modes less, and the default mesh is within 2.5 % of the
     finest for 15 modes."""
-    table = box().convergence((0.5, 1.0, 2.0)).to_numpy()
+    found = box().convergence((0.5, 1.0, 2.0))
+    assert list(found.columns) == ["20 x 2 x 3 x 2", "40 x 4 x 6 x 3", "80 x 8 x 12 x 6"]
+    assert found.index.name == "mode" and found.index.tolist() == list(range(1, 16))
+    table = found.to_numpy()
     steps = np.abs(np.diff(table[:6], axis=1))
     assert np.all(steps[:, 1] < steps[:, 0])
     assert np.abs(table[:, 1] / table[:, 2] - 1).max() < 0.025

@@ -194,10 +194,12 @@ def test_deck_files_give_a_beam_or_a_shell():
     shell = rb.deck_from_table(
         "test", FILE | {"model": "shell", "modes": 8, "mesh": {"along": 20, "web": 2, "slab": 4}}
     )
-    assert (
-        beam.mass_per_metre == pytest.approx(shell.mass_per_metre)
-        and beam.width == shell.width == 9.6
-    )
+    for made in (beam, shell):
+        assert (made.name, made.length, made.supports) == ("test", 36.0, (0.0, 36.0))
+        assert (made.tracks, made.width) == ({"left": 2.4}, 9.6)
+        assert made.damping_ratios.tolist() == [0.02] * 8
+        assert made.mode_names[0] == "vertical bending 1" and len(made.mode_names) == 8
+    assert beam.mass_per_metre == pytest.approx(shell.mass_per_metre)
     assert beam.recovery.lacks == "" and "only its modes" in shell.recovery.lacks
     assert shell.frequencies_hz[0] == pytest.approx(beam.frequencies_hz[0], rel=0.03)
     x = np.array([9.0, 18.0, 30.0])
@@ -205,6 +207,20 @@ def test_deck_files_give_a_beam_or_a_shell():
     assert ours == pytest.approx(theirs, rel=0.03)
     slope = (shell.shapes(x + 1e-5)[:, 0] - shell.shapes(x - 1e-5)[:, 0]) / 2e-5
     assert shell.shapes(x, 1)[:, 0] == pytest.approx(slope, rel=1e-4, abs=1e-9)
+
+
+def test_both_models_of_a_box_warn_of_the_same(plain):
+    odd = box(youngs_modulus=34e6, track_mass=0.7)
+    vars(odd)["section"] = plain.section  # the same concrete
+    shell = odd.shell_deck(mesh=rb.BoxMesh(8, 1, 2, 1), damping=(0.5, 1e-3))
+    beam = odd.beam_deck(2)
+    for found in (odd.remarks, shell.remarks, beam.remarks):
+        assert [remark.field for remark in found[:2]] == ["youngs_modulus", "track_mass"]
+    assert list(map(str, shell.remarks)) == list(map(str, odd.remarks))
+    # Fifteen modes of a span where no number is given, damped as Rayleigh has it.
+    omega = 2 * np.pi * shell.frequencies_hz
+    assert len(omega) == 15
+    assert shell.damping_ratios == pytest.approx(0.25 / omega + 5e-4 * omega)
 
 
 def test_a_car_crosses_the_shell():

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from railbridge.boxes.section import refuse_crossing, section_properties
+from railbridge.boxes.section import SectionProperties, refuse_crossing, section_properties
 from railbridge.errors import InputError
 
 
@@ -54,9 +54,23 @@ def test_open_channel_has_its_shear_centre_outside():
     assert s.torsion_constant == pytest.approx((hm + 2 * bm) * t**3 / 3, rel=0.03)
 
 
-def test_frame_names_units():
-    frame = section_properties(rectangle(1.0, 1.0)).to_frame()
-    assert list(frame.columns) == ["value", "unit"] and "m4" in set(frame["unit"])
+def test_the_table_of_a_section_says_every_value_with_its_unit():
+    frame = SectionProperties(
+        area=4.8, second_moment_vertical=2.5, second_moment_lateral=25.0, product_moment=0.0,
+        torsion_constant=5.6, shear_area_lateral=3.0, shear_area_vertical=1.4,
+        centroid=(0.0, 1.5), shear_centre=(0.0, 1.2),
+    ).to_frame()  # fmt: skip
+    assert list(frame.columns) == ["value", "unit"]
+    assert [(name, *row) for name, row in zip(frame.index, frame.to_numpy(), strict=True)] == [
+        ("area A", 4.8, "m2"),
+        ("second moment, vertical bending I_y", 2.5, "m4"),
+        ("second moment, lateral bending I_z", 25.0, "m4"),
+        ("torsion constant J", 5.6, "m4"),
+        ("shear area, vertical", 1.4, "m2"),
+        ("shear area, lateral", 3.0, "m2"),
+        ("height of the centroid", 1.5, "m"),
+        ("height of the shear centre", 1.2, "m"),
+    ]
 
 
 @pytest.mark.parametrize(
@@ -80,6 +94,22 @@ def test_wrong_outlines_are_refused(outline, holes, says):
 def test_touching_itself_is_crossing():
     with pytest.raises(InputError, match="cross"):
         refuse_crossing("outline", np.array([(0, 0), (2, 0), (2, 1), (1, 0), (0, 1)], dtype=float))
+
+
+CHANNEL = [(0, 0), (5, 0), (5, 1), (1, 1), (1, 9), (5, 9), (5, 10), (0, 10)]
+# The upper flange turned down through the lower one.
+FOLDED = [(0, 0), (5, 0), (5, 1), (1, 1), (1, 9), (3, 9), (3, -1), (0, 10)]
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("first", range(8))
+def test_corners_may_go_round_either_way_from_any_of_them(way, first):
+    turned = [
+        np.roll(np.array(line, dtype=float)[::way], first, axis=0) for line in (CHANNEL, FOLDED)
+    ]
+    refuse_crossing("outline", turned[0])
+    with pytest.raises(InputError, match="the edges that start at these corners cross"):
+        refuse_crossing("outline", turned[1])
 
 
 def test_missing_library_names_the_extra(monkeypatch):

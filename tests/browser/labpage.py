@@ -135,6 +135,22 @@ class NotebookOnPage:
         shown = self.page.locator(".jp-CodeCell.jp-mod-active .rb-verdict")
         return shown.inner_text()
 
+    def run_again(self, inside):
+        """Run the cell that shows the element `inside` once more, and wait until it has."""
+        cell = inside.locator(
+            "xpath=ancestor::*[contains(concat(' ', @class, ' '), ' jp-CodeCell ')]"
+        )
+        number = cell.locator(".jp-InputPrompt").inner_text()
+        cell.locator(".cm-content").click()
+        self.page.keyboard.press("Control+Enter")
+        wait_in(
+            self.page,
+            "([cell, number]) => { const now = cell.querySelector('.jp-InputPrompt').innerText; "
+            "return now !== number && /\\d/.test(now); }",
+            [cell.element_handle(), number],
+            "a cell that was run again",
+        )
+
     def complaints(self):
         """What cells raised or warned, and what panels refuse."""
         outputs = self.page.evaluate(OUTPUTS, self.path)

@@ -14,7 +14,7 @@ STATE = """async root => {
     // while a hand moves there are coarser results before it
     const exact = words.querySelector('[role=status]') !== null;
     const error = root.querySelector('.rb-error')?.innerText.trim() ?? '';
-    const controls = [...root.querySelectorAll('.widget-readout')].map(number => number.innerText)
+    const controls = [...root.querySelectorAll('.rb-number input')].map(number => number.value)
         .concat([...root.querySelectorAll('select')].map(list => list.value)).join(', ');
     try {
         const bytes = await (await fetch(image.src)).arrayBuffer();
@@ -117,10 +117,9 @@ class PanelOnPage:
         now = self.settled(f"now => now.error !== '' && {same} && now.width > 0")
         assert self.alert.inner_text().strip() == now["error"]
         assert self.alert.evaluate("alert => alert.closest('.rb-error') !== null")
-        picture, said = self.root.locator(".rb-picture").bounding_box(), self.alert.bounding_box()
-        assert said["height"] > 10 and said["y"] >= picture["y"] + picture["height"] - 1, (
-            "the words stand below the picture"
-        )
+        buttons, said = self.button("Paper case").bounding_box(), self.alert.bounding_box()
+        below = said["y"] - (buttons["y"] + buttons["height"])
+        assert said["height"] > 10 and 0 <= below < 30, "the words stand below the buttons"
         return now
 
     # ---- its controls
@@ -135,7 +134,11 @@ class PanelOnPage:
 
     def number(self, slider):
         """The number beside a slider, as written."""
-        return self.row(slider).locator(".widget-readout").inner_text()
+        return self.field(slider).input_value()
+
+    def field(self, slider):
+        """The field for the number beside a slider."""
+        return self.row(slider).locator("xpath=..").locator(".rb-number input")
 
     def slider(self, label):
         """The slider with this label."""
@@ -156,7 +159,7 @@ class PanelOnPage:
             self.page.keyboard.press(key)
 
     def type_number(self, slider, text):
-        self.row(slider).locator(".widget-readout").dblclick()
+        self.field(slider).click()
         for key in ("Control+A", *text, "Enter"):
             self.page.keyboard.press(key)
 
@@ -198,7 +201,8 @@ class PanelOnPage:
         """
         sliders, lists = self.sliders.all(), self.lists.all()
         shown = self.root.locator(
-            ".rb-side .widget-inline-hbox:has(.widget-label):not(.widget-label)"
+            ".rb-side .widget-inline-hbox:has(.widget-label)"
+            ":not(.widget-label, .rb-number, .widget-textarea, .widget-html)"
         ).count()
         assert len(sliders) + len(lists) == shown > 0, (
             "a control that is neither a slider nor a list"

@@ -2,9 +2,10 @@
 request to elsewhere."""
 
 import pytest
+from layout import faults, nameless
 from panel import PanelOnPage
 from served import app
-from visit import visiting
+from visit import WINDOW, visiting
 
 COMPLAINTS = (
     "[data-mime-type='application/vnd.jupyter.stderr'], "
@@ -29,6 +30,21 @@ def panel(visited):
 @pytest.fixture(scope="module")
 def start(panel):
     return panel.begun()
+
+
+@pytest.mark.parametrize("size", [(1024, 768), (1366, 768), (1920, 1080)])
+def test_all_of_it_is_seen_on_one_screen(visited, panel, start, size):
+    """Sliders long enough to be moved, no text cut, nothing on top of anything, no scroll bar."""
+    try:
+        visited.page.set_viewport_size(dict(zip(("width", "height"), size, strict=True)))
+        panel.settled()
+        assert faults(panel.root) == []
+    finally:
+        visited.page.set_viewport_size(WINDOW)
+
+
+def test_screen_readers_have_a_name_for_every_control(panel, start):
+    assert nameless(panel.root) == []
 
 
 def test_explorer_follows_its_controls(visited, panel, start):

@@ -6,10 +6,11 @@ import re
 import pytest
 from chromium import leaves
 from labpage import NotebookOnPage
+from layout import faults, nameless
 from moving import AnimationOnPage
 from panel import PanelOnPage
 from served import notebooks_with_panels
-from visit import visiting
+from visit import WINDOW, visiting
 
 PANELS = notebooks_with_panels()
 # A case of one's own, as a student writes it: with a step of 5 ms, 62 m/s leave ten samples in
@@ -102,6 +103,51 @@ def test_panel_follows_its_controls(visited, notebook, panel, start):
 
 
 @of(*PANELS)
+def test_the_whole_panel_is_seen_on_one_screen(visited, panel, start):
+    """In JupyterLab with its side bar open; the lowest of the windows is a laptop's, less what the
+    browser itself takes."""
+    try:
+        for width, height in ((1366, 650), (1366, 768), (1920, 1080)):
+            visited.page.set_viewport_size({"width": width, "height": height})
+            panel.settled()
+            assert faults(panel.root) == [], (width, height)
+    finally:
+        visited.page.set_viewport_size(WINDOW)
+
+
+@of(*PANELS)
+def test_screen_readers_have_a_name_for_every_control(panel, start):
+    for slider in panel.sliders.all():
+        assert panel.root.get_by_role("slider", name=panel.label(slider), exact=True).count() == 1
+    assert nameless(panel.root) == []
+
+
+@of("00_start_here")
+def test_the_player_says_what_its_buttons_do(panel, start):
+    for names in (("Play", "Pause"), ("Pause", "Play")):
+        now, then = (panel.button(f"{name}: first axle (m)") for name in names)
+        assert then.count() == 0
+        now.click()
+        then.wait_for()
+    panel.restored(start)
+
+
+@of("06_fixed_point_iteration")
+def test_a_panel_run_again_takes_the_place_of_the_old_one(visited, notebook, panel, start):
+    """The cell's output is another panel; the old one's widgets are gone, and nobody complains."""
+    now = panel.restored(start)
+    notebook.run_again(panel.root)
+    (root,) = notebook.page.locator(".rb-panel").all()
+    own = PanelOnPage(root)
+    again = own.begun()
+    assert again["summary"] == now["summary"]
+    own.press(own.sliders.first, "ArrowRight")
+    own.changed(again)
+    own.restored(start)
+    assert notebook.complaints() == visited.complaints() == []
+
+
+@of(*PANELS)
 def test_the_code_gives_the_number_of_the_summary(visited, notebook, panel, start, name):
     area = panel.code_area
     assert not area.is_visible()
@@ -146,6 +192,21 @@ def test_a_value_that_cannot_be_is_refused_in_words(visited, notebook, panel, st
     assert notebook.complaints() == visited.complaints() == []
 
 
+@of("03_rigid_deck_forces")
+def test_a_comma_is_refused_and_a_point_is_read(visited, notebook, panel, start):
+    """A browser reads 12,5 as 12; the panel says what is wrong, and the keyboard mends it."""
+    now = panel.restored(start)
+    speed = panel.slider("speed (m/s)")
+    panel.type_number(speed, "12,5")
+    refused = panel.refused(now)
+    assert "12,5" in refused["error"] and "with a point: 12.5" in refused["error"]
+    panel.type_number(speed, "12.5")
+    assert "12.5 m/s" in panel.changed(now)["summary"]
+    assert panel.number(speed) == "12.5" and panel.alert.count() == 0
+    panel.restored(start)
+    assert notebook.complaints() == visited.complaints() == []
+
+
 @of("04_deck_modes")
 def test_a_hurried_hand_is_followed_in_order(visited, notebook, panel, start):
     """JupyterLab sends what sliders say to a thread of its own in the kernel, and what buttons say
@@ -174,6 +235,26 @@ def test_a_crossing_that_is_refused_says_why(visited, notebook, panel):
     assert notebook.complaints() == visited.complaints() == []
 
 
+@of("06_fixed_point_iteration")
+def test_two_panels_on_a_page_keep_their_own_layout(visited, notebook, panel, start):
+    notebook.run_new_cell(
+        panel.root, lambda: panel.page.keyboard.insert_text("rb.panels.overview()")
+    )
+    other = panel.page.locator(".rb-panel").nth(1)
+    PanelOnPage(other).begun()
+    try:
+        visited.page.set_viewport_size({"width": 1366, "height": 768})
+        for root in (panel.root, other):
+            PanelOnPage(root).settled()
+            assert faults(root) == []
+        side, picture = (
+            panel.root.locator(part).bounding_box() for part in (".rb-side", ".rb-picture")
+        )
+        assert side["x"] + side["width"] <= picture["x"], "controls stand beside the picture"
+    finally:
+        visited.page.set_viewport_size(WINDOW)
+
+
 @of("00_start_here")
 def test_the_train_runs_by_itself(visited, notebook, panel, start):
     panel.try_player(panel.restored(start))
@@ -184,6 +265,7 @@ def test_the_train_runs_by_itself(visited, notebook, panel, start):
 def test_the_animation_waits_plays_and_pauses(visited, notebook):
     (root,) = visited.page.locator("[data-animation]").all()
     AnimationOnPage(root).try_everything()
+    assert nameless(root) == []
     assert notebook.complaints() == visited.complaints() == []
 
 

@@ -105,6 +105,41 @@ def test_copies_nobody_touched_are_renewed(folder, newer, capsys):
     assert command(capsys, folder)[1][0].endswith(f"{len(newer)} unchanged")
 
 
+def saved_by_jupyterlab(path, change=lambda notebook: None):
+    """Save a copy as JupyterLab does, 2 minutes after a page was opened: it notes its kernel."""
+    notebook = nbformat.read(path, as_version=4)
+    notebook.metadata.kernelspec.display_name = "Python 3 (ipykernel)"
+    notebook.metadata.language_info.update(version="3.13.1", file_extension=".py")
+    change(notebook)
+    nbformat.write(notebook, path)
+
+
+def test_a_copy_that_was_only_opened_is_renewed(folder, newer, capsys):
+    saved_by_jupyterlab(folder / NOTEBOOK)
+    saved_by_jupyterlab(folder / "00_start_here.ipynb")
+    opened = (folder / "00_start_here.ipynb").read_bytes()
+    code, out, _ = command(capsys, folder)
+    assert code == 0 and out[0] == f"updated   {NOTEBOOK}"
+    assert f"1 updated, {len(newer) - 1} unchanged" in out[1]
+    assert (folder / NOTEBOOK).read_bytes() == newer[NOTEBOOK]
+    assert (folder / "00_start_here.ipynb").read_bytes() == opened
+
+
+def test_a_copy_that_was_run_is_kept(folder, newer, capsys):
+    def run(notebook):
+        next(cell for cell in notebook.cells if cell.cell_type == "code").execution_count = 40
+
+    saved_by_jupyterlab(folder / NOTEBOOK, run)
+    assert command(capsys, folder)[1][0] == f"kept      {NOTEBOOK}"
+
+
+@pytest.mark.parametrize("content", ["[]", "{}", '{"metadata": 1}', "[" * 9999, '{"cells": NaN}'])
+def test_a_copy_that_is_no_notebook_any_more_is_kept(folder, newer, capsys, content):
+    (folder / NOTEBOOK).write_text(content)
+    assert command(capsys, folder)[1][0] == f"kept      {NOTEBOOK}"
+    assert (folder / NOTEBOOK).read_text() == content
+
+
 def test_an_edited_copy_is_kept_without_force(folder, newer, capsys):
     (folder / NOTEBOOK).write_bytes(b"my work")
     code, out, _ = command(capsys, folder)

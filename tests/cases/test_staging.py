@@ -110,7 +110,7 @@ def test_what_a_killed_run_left_stands_in_nobodys_way(here, existing):
         assert os.listdir(scratch) == []
         written(scratch, "new")
     assert found("r") == dict.fromkeys(NAMES, "new")
-    assert os.listdir() == ["r"]
+    assert os.listdir() == ["r"] and set(os.listdir("r")) == set(NAMES)
 
 
 @pytest.mark.parametrize("content", [{}, {"a.csv": "theirs", "mine.txt": "mine"}])

@@ -6,6 +6,8 @@ import pytest
 import railbridge as rb
 from railbridge import exchange
 from railbridge.beams import Bearing
+from railbridge.cases.cars import two_bogie_car
+from railbridge.cases.objects import box_from_table
 from railbridge.cases.summary import summarize
 
 CAR = rb.vehicle("xia2000")
@@ -96,3 +98,27 @@ def test_a_path_of_keys_as_long_as_one_likes_is_refused():
     for path in (".".join("a" * 900), "run." + ".".join("a" * 5000)):
         with pytest.raises(rb.InputError, match="leads more than 20 tables deep"):
             CASE.replace({path: 1})
+
+
+@pytest.mark.parametrize(
+    ("call", "named"),
+    [
+        (rb.Case, "case = 5: must be a table"),
+        (rb.case, "case = 5: must be a name or a path"),
+        (lambda v: rb.case("paper", v), "changes = 5: must be a table of new values by path"),
+        (lambda v: rb.case({}, v), "changes = 5: must be a table of new values by path"),
+        (CASE.replace, "changes = 5: must be a table of new values by path"),
+        (lambda v: CASE.replace({v: 1}), "path of a change = 5: must be a text"),
+        (CASE.get, "path = 5: must be a text"),
+        (CASE.summary, "run = 5: must be a Crossing"),
+        (lambda v: summarize(v, [10.0]), "run = 5: must be a Crossing"),
+        (lambda v: rb.deck_from_table(v, {}), "name = 5: must be a text"),
+        (lambda v: rb.deck_from_table("d", v), "deck d = 5: must be a table"),
+        (lambda v: box_from_table(v, {}), "name = 5: must be a text"),
+        (two_bogie_car, "name = 5: must be a text"),
+    ],
+)
+def test_what_is_of_the_wrong_kind_is_refused_by_its_name(call, named):
+    with pytest.raises(rb.InputError) as error:
+        call(5)
+    assert str(error.value).startswith(named)

@@ -455,12 +455,16 @@ def test_doubtful_models_are_warned_about(folder):
     change(folder / "modes.csv", scaled(8, -1.0))
     with pytest.warns(UserWarning, match="-ry is not the slope of uz along the rail"):
         turned = rb.deck(folder / "deck.toml")
+    assert any("-ry is not the slope of uz" in str(remark) for remark in turned.remarks)
     assert differ(turned, rb.deck(EXAMPLE / "deck.toml")).max() < 5e-3
     change(folder / "modes.csv", scaled(8, -1.0))
     change(folder / "modes.csv", mixed)
     change(folder / "deck.toml", lambda lines: [x for x in lines if not x.startswith("masses")])
     with pytest.warns(UserWarning, match="modes 1 and 3 overlap by 0.45 along the rail"):
-        rb.deck(folder / "deck.toml")
+        doubtful = rb.deck(folder / "deck.toml")
+    run = crossing(doubtful, interaction="rigid", iterations=None)
+    told = [str(remark) for remark in rb.remarks(run)]
+    assert any("modes 1 and 3 overlap by 0.45" in text for text in told), "results say so, too"
 
 
 def lateral_first(folder, factor):

@@ -98,6 +98,45 @@ def test_loads_follow_the_axes_of_the_model(ours):
     assert values[:, 4] == pytest.approx(plain[:, 5] / 1e3)
 
 
+POUND = 4.4482216152605  # N
+AXLE = rb.cross(
+    rb.AxleTrain([0.0], [1e5]), rb.deck("viaduct36"), speed=20.0, time_step=0.05, track_offset=2.4,
+    interaction="rigid",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("units", "name", "newtons", "metres"),
+    [
+        (("m", "kg"), "N", 1.0, 1.0), (("mm", "t"), "N", 1.0, 1e-3), (("m", "t"), "kN", 1e3, 1.0),
+        (("ft", "slug"), "lbf", POUND, 0.3048), (("in", "lbf s2/in"), "lbf", POUND, 0.0254),
+        (("ft", "kip s2/ft"), "kip", 1e3 * POUND, 0.3048), (("m", "kN s2/m"), "kN", 1e3, 1.0),
+        (("in", "kip s2/in"), "kip", 1e3 * POUND, 0.0254), (("mm", "kg"), "kg mm/s2", 1e-3, 1e-3),
+    ],
+)  # fmt: skip
+def test_loads_are_in_the_unit_of_force_that_the_model_s_masses_ask_for(
+    tmp_path, units, name, newtons, metres
+):
+    """Force is mass times length per second squared in every consistent set."""
+    loads = nodal_loads(AXLE, replace(AXIS, units=units))
+    values, unit = loads.of_model()
+    assert unit == name
+    assert values[:, :3] == pytest.approx(loads.values[:, :3] / newtons, rel=1e-9)
+    assert values[:, 3:] == pytest.approx(loads.values[:, 3:] / newtons / metres, rel=1e-9)
+    export_loads(AXLE, tmp_path / "x.csv", loads.line)
+    names = (tmp_path / "x.csv").read_text(encoding="utf-8").partition("\n")[0].split(",")
+    assert f"node 13 force_z ({name})" in names
+    assert f"node 13 moment_x ({name} {units[0]})" in names
+    export_loads(AXLE, tmp_path / "x.inp", loads.line, form="abaqus")
+    for file in ("x.inp", "x_loads.inp"):
+        head = (tmp_path / file).read_text(encoding="ascii").splitlines()[:2]
+        assert head == [
+            f"** railbridge: forces in {name}, couples in {name} {units[0]}, for a model in "
+            f"{units[0]}, {units[1]}, s",
+            "** step time 0: the first axle is at the first node",
+        ]
+
+
 def test_the_abaqus_files_say_the_same(ours, tmp_path):
     loads = export_loads(ours, tmp_path / "rail.inp", AXIS, form="abaqus", instance="DECK-1")
     text = (tmp_path / "rail.inp").read_text(encoding="ascii")

@@ -69,6 +69,22 @@ def _first(shapes, count):
     return dataclasses.replace(shapes, coefficients=shapes.coefficients[:, :, :count])
 
 
+def test_nodes_too_few_for_the_waves_of_a_mode_are_warned_of():
+    """Without rotations only displacements tell the shape: two nodes a half wave do not do."""
+    model = dataclasses.replace(read(EXAMPLE), rotations=(False, False, False))
+    with pytest.warns(UserWarning) as seen:
+        deck_from_modes(model, model.nodes.line({"nodes": range(1, 26, 4)}))
+    assert [str(warning.message) for warning in seen] == [
+        "modes: the 7 nodes of the rail are few for uz of mode 9, which changes sign 3 times. "
+        "Use a finer line, fewer modes, or write rotations too."
+    ]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        deck_from_modes(model, model.nodes.line({"nodes": range(1, 26, 3)}))
+        with_rotations = read(EXAMPLE)
+        deck_from_modes(with_rotations, with_rotations.nodes.line({"nodes": range(1, 26, 4)}))
+
+
 def test_masses_show_how_orthogonal_the_modes_are():
     found = read(EXAMPLE).orthogonality()
     assert found.known_masses and found.worst < 1e-8
@@ -118,6 +134,20 @@ def test_too_few_modes_of_a_viaduct_are_remarked(tmp_path):
     (remark,) = short.remarks
     assert str(remark).startswith("modes move nothing up and down from x = ")
     assert "other span" in str(remark) or "m: too few" in str(remark)
+
+
+@pytest.mark.parametrize(
+    ("modes", "others"), [(1, ", nor in 2 other spans"), (2, ", nor in 1 other span"), (3, "")]
+)
+def test_spans_that_stand_still_are_counted(tmp_path, modes, others):
+    """The longest span moves first, so each mode leaves one span less."""
+    beam = rb.Beam("four", (30.0, 27.0, 25.0, 23.0), 36e3, 2.5e11, continuous=False)
+    (remark,) = rb.deck(rb.exchange.export_modes(beam.deck(modes, 0.02), tmp_path / "m")).remarks
+    start, end = np.cumsum([0.0, 30.0, 27.0, 25.0, 23.0])[modes : modes + 2]
+    assert str(remark) == (
+        f"modes move nothing up and down from x = {start:g} to {end:g} m{others}: "
+        "too few modes were written."
+    )
 
 
 def test_modes_that_move_nothing_up_and_down_are_remarked(tmp_path):

@@ -100,6 +100,39 @@ def test_other_instants_and_units_do_not_matter(ours, tmp_path):
     )
 
 
+UP_IS_Y = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+
+
+@pytest.mark.parametrize(("said", "metres"), [("# units: in", 0.0254), ("# units: m, t", 1.0)])
+def test_a_motion_file_may_be_in_other_units_axes_and_order(tmp_path, said, metres):
+    """The model has y up; the file says its own unit, and holds nodes that are not on the line."""
+    line = replace(line_of(3), turn=UP_IS_Y)
+    time, labels = np.arange(5) / 10, [*line.nodes, "77"]
+    rng = np.random.default_rng(2)
+    known = {(label, t): rng.normal(size=6) for label in labels for t in time}
+    rows = [f"{t},{label}," + ",".join(map(repr, v.tolist())) for (label, t), v in known.items()]
+    text = "\n".join([said, "time,node,ux,uy,uz,rx,ry,rz", *rng.permutation(rows)])
+    (tmp_path / "motion.csv").write_text(text, encoding="utf-8")
+    found = staggered.read_motion(tmp_path / "motion.csv", line)
+    assert found.time.tolist() == time.tolist()
+    for n, label in enumerate(line.nodes):
+        for k, t in enumerate(time):
+            _, uy, uz, rx, _, _ = known[label, t]
+            assert found.y[n, k] == pytest.approx(-uz * metres)
+            assert found.z[n, k] == pytest.approx(uy * metres)
+            assert found.roll[n, k] == pytest.approx(rx)
+
+
+def test_a_motion_file_lacks_a_column_by_the_name_that_the_model_has_for_it(tmp_path):
+    line = replace(line_of(3), turn=UP_IS_Y)
+    (tmp_path / "motion.csv").write_text("time,node,uy\n0,1,0\n", encoding="utf-8")
+    with pytest.raises(rb.InputError) as error:
+        staggered.read_motion(tmp_path / "motion.csv", line)
+    assert str(error.value) == (
+        "motion.csv: column uz: is missing: the lateral displacement. Write zeros if none."
+    )
+
+
 def test_relaxation_takes_a_share(ours):
     step = staggered.begin(TRAIN, TRACK, AXIS, **OPTIONS)
     motion = motion_of(ours.at(0), AXIS)
@@ -145,6 +178,7 @@ def test_the_equivalent_irregularity_is_track_plus_deck(ours):
         staggered.begin(TRAIN, TRACK, AXIS, **OPTIONS), motion_of(ours.at(0), AXIS)
     )
     met = staggered.equivalent_irregularity(step, car=1, wheel=3)
+    assert met.where == "car 1, wheel 3" and set(met.units.values()) == {"m"}
     wheel = TRAIN.wheels[2]
     assert (wheel.number, wheel.side) == (3, "left")
     for k in (400, 700, 900):

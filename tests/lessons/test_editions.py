@@ -133,3 +133,11 @@ def test_points_and_numbers_of_equations_do_not_end_a_first_sentence():
     shown, _, folded = source(made).partition("\n\n<details>")
     assert shown == "**Figure 1.2.** Eq. 3 over 14.4 m of track, iterations 1 to 4."
     assert "It falls." in folded and folded.rstrip().endswith("Next.")
+
+
+def test_a_caption_of_one_sentence_folds_nothing_that_follows():
+    caption = (
+        "**Figure 1.2.** The car from the side.\n\n**Guess first.** Which is slower? Write it."
+    )
+    (made,) = student({"cells": [cell("markdown", caption)]})["cells"]
+    assert source(made) == caption

@@ -418,6 +418,45 @@ def test_the_code_runs_and_gives_the_number_of_the_summary(all_panels, name, val
     panel.reset()
 
 
+def test_buttons_say_what_the_next_click_does_and_open_code_follows(all_panels):
+    panel = all_panels["irregularities"]
+    button, area = panel.code_button, panel.code_area
+    assert panel.paper_button.description == "Paper case"
+    assert panel.paper_button.tooltip == "All controls back to where they started"
+    assert button.tooltip == "Python lines that compute this very case"
+    assert (button.description, area.layout.display) == ("Show this as code", "none")
+    button.click()
+    assert (button.description, area.layout.display) == ("Hide the code", "flex")
+    assert area.value == panel.code
+    panel.set(wavelength=12.0)
+    assert area.value == panel.code and "'wavelength': 12.0" in area.value
+    button.click()
+    assert (button.description, area.layout.display) == ("Show this as code", "none")
+    panel.reset()
+
+
+def test_labels_say_what_a_control_changes_and_in_which_unit(all_panels):
+    labels = {
+        "speed": "speed (m/s)", "wavelength": "wavelength (m)", "amplitude": "amplitude (mm)",
+        "cars": "cars", "iteration": "iteration", "loads": "loads", "mode": "mode",
+        "damping_ratio": "damping (%)", "first_frequency": "at first (Hz)",
+        "second_frequency": "and second (Hz)", "place": "first axle (m)",
+    }  # fmt: skip
+    sliders = [pair for panel in all_panels.values() for pair in panel.sliders.items()]
+    assert {(name, slider.description) for name, slider in sliders} == set(labels.items())
+    # All sliders start below each other, and no label is cut: a letter is half as wide as high.
+    (width,) = {slider.style.description_width for _, slider in sliders}
+    assert float(width.removesuffix("em")) >= 0.5 * max(map(len, labels.values()))
+
+
+def test_the_number_beside_a_slider_shows_every_step(all_panels):
+    for panel in all_panels.values():
+        for name, slider in panel.sliders.items():
+            if isinstance(slider, (widgets.FloatSlider, widgets.IntSlider)):
+                shown = format(slider.step, slider.readout_format)
+                assert float(shown) == pytest.approx(slider.step), name
+
+
 def test_the_paper_case_gives_the_known_numbers(all_panels):
     assert "steady bounce 75.8 kN, pitch 66.1 kN m" in all_panels["rigid_forces"].summary
     assert "worst wheel unloading 0.149" in all_panels["rigid_forces"].summary
@@ -471,8 +510,14 @@ def test_the_words_of_an_iteration_are_those_of_its_number(all_panels, name):
         words = f"deviation from the rigid deck {deviation:+.3f} % (Eq. 3), change of this "
         words += f"iteration {change:.1e}."
     else:
-        words = f"the force of car 1 differs from that on a rigid deck by {deviation:+.1f} % "
-        words += f"(Eq. 3); the wheel forces changed by {100 * change:.2g} % in this iteration; "
+        stage = run.at(2)
+        bounce = np.abs(stage.car_forces(1, static=False)["force_z"]).max()
+        at_rest = np.array([wheel.static_load for wheel in run.train.wheels])
+        extra = (-stage.wheel_forces[:, 1] - at_rest[:, None]).max()
+        words = f"largest extra wheel force {extra / 1e3:.1f} kN; "
+        words += "bounce force of car 1 (its wheels together, without its weight) up to "
+        words += f"{bounce / 1e3:.1f} kN, {deviation:+.1f} % against a rigid deck (Eq. 3); "
+        words += f"the wheel forces changed by {100 * change:.2g} % in this iteration; "
         words += "forcing 2.083 Hz."
     assert words in panel.summary
     assert "rigid-deck forces" in panel.set(iteration=0).summary
@@ -480,15 +525,15 @@ def test_the_words_of_an_iteration_are_those_of_its_number(all_panels, name):
 
 
 def test_each_picture_shows_the_frequencies_of_its_subject(all_panels):
-    for name, values in (
-        ("deck_modes", lambda case: case.deck.frequencies_hz),
-        ("irregularities", lambda case: case.train.vehicles[0].modes().frequencies_hz),
-    ):
-        panel = all_panels[name]
-        lines = {line.get_gid(): line for line in panel._axes["frequencies"].lines}
-        shown = lines["natural"].get_xdata()[::3]
-        assert np.allclose(shown, values(panel.case)[: len(shown)]), name
-        assert np.allclose(lines["line at forcing"].get_xdata(), 20.0 / 14.4)
+    deck, car = (all_panels[name] for name in ("deck_modes", "irregularities"))
+    upright = {line.get_gid(): line.get_xdata() for line in deck._axes["frequencies"].lines}
+    level = {line.get_gid(): line.get_ydata() for line in car._axes["frequencies"].lines}
+    shown = upright["natural"][::3]
+    assert np.allclose(shown, deck.case.deck.frequencies_hz[: len(shown)])
+    frequencies = car.case.train.vehicles[0].modes().frequencies_hz
+    assert np.allclose(level["natural"][::3], frequencies)
+    assert np.allclose(upright["line at forcing"], 20.0 / 14.4)
+    assert np.allclose(level["now"], 20.0 / 14.4)
 
 
 def test_a_value_seen_before_is_not_computed_again():

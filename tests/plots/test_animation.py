@@ -12,7 +12,12 @@ import pytest
 from IPython.core.formatters import DisplayFormatter
 
 import railbridge as rb
-from railbridge.plots import animate_crossing, animate_vehicle_mode
+from railbridge.plots import (
+    animate_car_on_waves,
+    animate_crossing,
+    animate_rigid_and_flexible,
+    animate_vehicle_mode,
+)
 
 NAMESPACE = "{http://www.w3.org/2000/svg}"
 FILE_BYTES = 150_000
@@ -336,6 +341,45 @@ def test_it_waits_then_plays_and_pauses_by_keyboard(browser, tmp_path, crossing)
     assert stopped > 5
     page.wait_for_timeout(250)
     assert int(slider.input_value()) == stopped
+    assert wrong == []
+    page.close()
+
+
+POINTS = """() => {
+    const moving = '[data-part], [data-line], [data-dot], [data-along]';
+    const told = e => ['points', 'cx', 'cy', 'transform'].map(name => e.getAttribute(name) ?? '');
+    return [...document.querySelectorAll(moving)].map(e => told(e).join(' '));
+}"""
+
+
+@pytest.mark.parametrize("kind", ["riding", "twice"])
+def test_the_script_draws_its_first_frame_as_it_was_stored_and_each_one_differently(
+    browser, tmp_path, car, run, kind
+):
+    if kind == "riding":
+        animation = animate_car_on_waves(car, rb.Harmonic(5e-3, 14.4), 20.0, frames=12)
+    else:
+        animation = animate_rigid_and_flexible(run, frames=12)
+    stored = [
+        " ".join(item.get(name, "") for name in ("points", "cx", "cy", "transform"))
+        for item in picture(animation).iter()
+        if any(f"data-{what}" in item.attrib for what in ("part", "line", "dot", "along"))
+    ]
+    page, wrong = opened(browser, tmp_path, animation)
+    drawn = page.evaluate(POINTS)
+    assert len(stored) == len(drawn) > 10
+    for one, other in zip(stored, drawn, strict=True):
+        pair = [list(map(float, re.findall(r"-?[\d.]+", text))) for text in (one, other)]
+        assert pair[0] == pytest.approx(pair[1], abs=0.26)
+    seen, slider = set(), page.get_by_role("slider")
+    slider.focus()
+    page.keyboard.press("Home")
+    for _ in range(12):
+        seen.add(str(page.evaluate(POINTS)) + slider.get_attribute("aria-valuetext"))
+        page.keyboard.press("ArrowRight")
+    assert len(seen) == 12 and "mm" in slider.get_attribute("aria-valuetext")
+    page.get_by_role("button").click()
+    page.wait_for_timeout(300)
     assert wrong == []
     page.close()
 

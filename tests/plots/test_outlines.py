@@ -6,7 +6,17 @@ import numpy as np
 import pytest
 
 import railbridge as rb
-from railbridge.plots.outlines import Heights, VehicleOutline, drawn_length, is_long, train_outline
+from railbridge.plots.outlines import (
+    VIEWS,
+    WHEEL_RADIUS,
+    Heights,
+    VehicleOutline,
+    drawn_length,
+    is_long,
+    mode_motion,
+    train_outline,
+    zigzag,
+)
 
 HEIGHTS = Heights(wheel=0.5, frame=1.0, floor=1.5, roof=4.0)
 
@@ -83,3 +93,54 @@ def test_a_vehicle_without_a_length_is_drawn_about_its_wheels():
     drawn = train_outline(rb.Train(bare, cars=2, car_spacing=22.5)).cars[0]
     assert drawn.ends[1] - drawn.ends[0] > 2 * 9.05
     rb.plots.vehicle(bare)
+
+
+@pytest.mark.parametrize(("name", "scale"), [("xia2000", 0.65), ("sprung_mass", 0.35)])
+@pytest.mark.parametrize("asked", [None, 0.2])
+def test_the_largest_motion_of_a_mode_is_drawn_to_scale(name, scale, asked):
+    car = rb.vehicle(name)
+    outline = VehicleOutline(car)
+    for mode in (1, len(car.modes().names)):
+        modes, motion = mode_motion(car, mode, asked)
+        size = []
+        for body, box in outline.boxes.items():
+            corners = np.concatenate([box.corners(plane) for plane in VIEWS.values()])
+            size.append(np.linalg.norm(outline.moved(corners, body, motion) - corners, axis=1))
+        assert max(map(np.max, size)) == pytest.approx(asked or scale)
+        shape = dict(zip(modes.labels, modes.shapes[:, mode - 1], strict=True))
+        body, freedom = max(shape, key=lambda label: abs(shape[label])).rsplit(" ", 1)
+        leading = motion[body][["y", "z", "roll", "pitch", "yaw"].index(freedom)]
+        assert leading > 0.0, "the mode is drawn the way its largest freedom counts"
+
+
+def test_springs_stand_between_the_bodies_that_they_join():
+    car = rb.vehicle("xia2000")
+    outline = VehicleOutline(car)
+    assert outline.levels == {"rail": 0, "front bogie": 1, "rear bogie": 1, "car": 2}
+    _, motion = mode_motion(car, 1)
+    for spring in car.springs:
+        foot, head = outline.spring(spring, {})
+        low, high = sorted((spring.from_, spring.to), key=outline.levels.get)
+        above = outline.boxes[high]
+        assert head[2] == pytest.approx(above.centre[2] - above.half[2]) and head[2] > foot[2]
+        below = outline.boxes.get(low)
+        ground = WHEEL_RADIUS if below is None else below.centre[2] + below.half[2]
+        assert foot[2] == pytest.approx(ground)
+        assert tuple(foot[:2]) == tuple(head[:2]) == tuple(spring.at[:2])
+        # What moves takes its end of the spring with it; the rail stays.
+        ends = outline.spring(spring, motion)
+        assert ends[1] == pytest.approx(outline.moved(head[None], high, motion)[0])
+        assert np.array_equal(ends[0], foot) == (low == "rail")
+    for box in outline.boxes.values():
+        assert np.all(np.abs(box.centre[:2]) + box.half[:2] <= outline.extent[:2] + 1e-12)
+        assert box.centre[2] + box.half[2] <= outline.extent[2] + 1e-12
+
+
+def test_a_zigzag_runs_from_end_to_end():
+    foot, head = np.array([1.0, 2.0]), np.array([4.0, 6.0])
+    line = zigzag(foot, head)
+    assert line[0] == pytest.approx(foot) and line[-1] == pytest.approx(head)
+    along = (line - foot) @ (head - foot) / 5.0
+    across = (line - foot) @ np.array([-4.0, 3.0]) / 5.0
+    assert np.all(np.diff(along) > 0.0) and along[-1] == pytest.approx(5.0)
+    assert across.max() == pytest.approx(-across.min()) and across.max() > 0.0

@@ -86,19 +86,59 @@ def figures(case, run):
     }
 
 
-FIGURES = [name for name in plots.__all__ if not name.startswith("animate_")]
+# What moves, and the diagrams, are no figures of Matplotlib.
+FIGURES = [n for n in plots.__all__ if n != "diagram" and not n.startswith("animate_")]
+
+TIME, PLACE = "time since the first axle entered (s)", "x from the bridge entrance (m)"
+HERTZ = "frequency (Hz)"
+# What stands along x and along y, each once.
+LABELS = {
+    "acceleration": ([TIME], ["vertical acceleration (m/s²)"]),
+    "assurance": (["mode of the beam (-)"], ["mode of the shell"]),
+    "box_section": (["y, to the left (m)"], ["height above the underside (m)"]),
+    "car_forces": ([TIME], ["lateral force (kN)", "vertical force (kN)", "roll moment (kN m)",
+                            "pitch moment (kN m)", "yaw moment (kN m)"]),
+    "convergence": (["iteration"], ["change of the wheel forces (-)"]),
+    "damping": ([HERTZ], ["damping ratio (%)"]),
+    "deck_mode": ([PLACE], ["shape (-)"]),
+    "deck_modes": ([PLACE], ["shape (-)"]),
+    "deviations": (["iteration"], ["deviation, Eq. 3 (%)"]),
+    "displacement": ([TIME], ["vertical displacement (mm)"]),
+    "frequencies": ([HERTZ], []),
+    "influence_line": (["place of the load, x (m)"], ["per unit upward load (m)"]),
+    "irregularity": ([PLACE], ["irregularity r (mm)"]),
+    "iterations": ([TIME], ["vertical displacement (mm)", "minus iteration 4 (mm)"]),
+    "load_modes": ([TIME], ["vertical bending moment (kN m)"]),
+    "notch": (["place of the wheel from the bridge entrance (m)"], ["r (mm)"]),
+    "reactions": ([TIME], ["vertical reaction (kN)"]),
+    "section_force": ([TIME], ["torsion (kN m)"]),
+    "shell_mode": (["length 36.6 (m), motion drawn up to 1.2 (m)"], []),
+    "shell_modes": (["length 36.6 (m), motion drawn up to 1.2 (m)"], []),
+    "slope": ([PLACE], ["slope dr/dx (mm/m)"]),
+    "spectra": ([HERTZ], ["amplitude (kN)"]),
+    "spectrum": ([HERTZ], ["amplitude (kN)"]),
+    "train_on_deck": ([PLACE], []),
+    "vehicle": (["x (m)", "y (m)"], ["height, schematic", "y (m)"]),
+    "vehicle_mode": (["x (m)", "y (m)"], ["height, schematic", "y (m)"]),
+    "velocity": ([TIME], ["vertical velocity (mm/s)"]),
+    "wheel_force": ([TIME], ["wheel force on the deck (kN)"]),
+    "wheel_forces": ([TIME], ["force (kN)"]),
+    "wheel_paths": ([TIME], ["r under the wheel (mm)"]),
+    "wheels_on_track": ([PLACE], ["irregularity r (mm)"]),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", FIGURES)
-def test_every_figure_has_units_no_side_effects_and_a_legend_above_the_data(name, figures):
+def test_every_figure_has_its_labels_no_side_effects_and_a_legend_above_the_data(name, figures):
     before = dict(mpl.rcParams)
     axes = np.ravel(np.asarray(figures[name](), dtype=object))
     figure = axes[0].figure
     figure.canvas.draw()
     assert dict(mpl.rcParams) == before
     assert all(isinstance(ax, mpl.axes.Axes) for ax in axes)
-    labels = " ".join(ax.get_xlabel() + ax.get_ylabel() for ax in axes)
-    assert any(f"({unit})" in labels for unit in ("m", "s", "Hz", "mm", "kN", "-", "%")), labels
+    along, upright = zip(*((ax.get_xlabel(), ax.get_ylabel()) for ax in axes), strict=True)
+    for labels, known in zip((along, upright), LABELS[name], strict=True):
+        assert list(dict.fromkeys(x.replace("\n", " ") for x in labels if x)) == known
     assert figure.get_figwidth() == FIGURE_WIDTH
     # A legend stands above the data.
     for ax in axes:
@@ -133,7 +173,7 @@ def test_mode_titles_say_frequency_and_what_moves():
     assert (
         plots.vehicle_mode(car, 4)[0]
         .get_title(loc="left")
-        .startswith("mode 4: 1.334 Hz, car z\nCar bounces (100 %)")
+        .startswith("mode 4: 1.334 Hz\nCar bounces (100 %)")
     )
     assert "Same frequency as mode 9" in plots.vehicle_mode(car, 8)[0].get_title(
         loc="left"
@@ -346,22 +386,65 @@ def test_spectra_convergence_and_damping_are_drawn_as_computed(run):
         assert np.allclose(shown, 100 * (a / (4 * np.pi * f) + b * np.pi * f))
 
 
-def test_the_train_rides_on_the_deck_as_it_is_drawn(run):
+def sketch(run, position, **scales):
+    ax = crossing_at(run, position, plt.figure().add_subplot(), **scales)
+    words = " ".join(text.get_text() for text in ax.texts)
+    return {line.get_gid(): line.get_data() for line in ax.lines}, words
+
+
+def test_the_train_rides_on_the_waves_and_on_the_deck_as_they_are_drawn(run):
     """On the rail before and behind, on the bent deck between, at the places of its wheels."""
-    ax = crossing_at(run, 60.0, plt.figure().add_subplot())
-    drawn = {line.get_gid(): line.get_data() for line in ax.lines}
+    drawn, words = sketch(run, 60.0)
+    factor = float(re.search(r"drawn (\S+) times", words)[1])
     x, z = drawn["wheels"]
     assert np.allclose(np.sort(x), np.sort([60.0 - a.delay for a in run.train.placed_axles]))
     off = (x < 0.0) | (x > 36.0)
     assert off.any() and not off.all()
-    assert np.allclose(z[off], 0.35)
+    waves = factor * 5e-3 * np.sin(2 * np.pi * x / 14.4)
+    assert np.abs(waves).max() > 0.3, "they can be seen"
+    assert np.allclose(z[off], waves[off] + 0.35)
     along, deck = drawn["deck"]
-    assert np.allclose(z[~off], np.interp(x[~off], along, deck + 0.45) + 0.35)
-    factor = float(re.search(r"drawn (\S+) times", " ".join(t.get_text() for t in ax.texts))[1])
+    low = deck[0]
+    assert np.allclose(z[~off], np.interp(x[~off], along, deck - low) + waves[~off] + 0.35)
     sample = round(60.0 / 20.0 / run.settings.time_step)
     shown = [run.displacement(place, kept_only=True) for place in along]
     known = [history["displacement_z"][sample] for history in shown]
-    assert np.allclose(deck + 0.45, factor * np.array(known), atol=1e-9)
+    assert np.allclose(deck - low, factor * np.array(known), atol=1e-9)
+    x, rail = drawn["rail"]
+    assert np.allclose(np.interp(drawn["wheels"][0], x, rail), z - 0.35, atol=0.02)
+
+
+def test_the_rail_is_level_before_its_run_up(case):
+    run = case.replace({"run.lead_in": 20.0}).compute()
+    x, rail = sketch(run, 30.0)[0]["rail"]
+    assert not rail[x < -20.0].any() and rail[x > -10.0].any()
+
+
+def test_arrows_are_as_long_as_the_forces_of_the_axles(run):
+    drawn, words = sketch(run, 60.0)
+    x, y = drawn["forces"]
+    sample = round(60.0 / 20.0 / run.settings.time_step)
+    force = -run.wheel_forces[:, 1, sample].reshape(-1, 2).sum(axis=1)
+    assert np.allclose(x[::3], [60.0 - axle.delay for axle in run.train.placed_axles])
+    length = y[::3] - y[1::3]
+    assert np.allclose(length / length[0], force / force[0])
+    assert np.ptp(force) > 0.1 * force.mean()
+    scale = float(re.search(r"this long: (\S+) kN", words)[1])
+    (low, high) = sorted(drawn["scale of the forces"][1])
+    assert force[0] / length[0] == pytest.approx(1e3 * scale / (high - low))
+    rest = drawn["forces at rest"][1]
+    assert np.allclose((y[0] - rest[0]) / length[0], 146.44e3 / force[0], rtol=1e-3)
+
+
+def test_the_scales_of_the_sketch_stay_while_there_is_room(run, case):
+    _, words = sketch(run, 60.0, exaggeration=50.0, force=500e3)
+    assert "drawn 50 times" in words and "this long: 500 kN" in words
+    deep = case.replace({"track.vertical.amplitude": 10e-3}).compute()
+    assert "drawn 100 times" in sketch(deep, 60.0)[1]
+    assert "drawn 200 times" in sketch(deep, 60.0, exaggeration=200.0)[1]
+    deep = case.replace({"track.vertical.amplitude": 30e-3}).compute()
+    _, words = sketch(deep, 60.0, exaggeration=200.0, force=1e3)
+    assert "drawn 50 times" in words and "this long: 250 kN" in words
 
 
 TRACK = rb.Track(
@@ -485,6 +568,207 @@ def test_deviations_are_drawn_under_their_own_names(run):
         assert np.allclose(labelled(ax, f"{before}from rigid").get_ydata(), known.from_rigid)
         assert np.allclose(labelled(ax, f"{before}from previous").get_ydata(), known.from_previous)
         assert labelled(ax, f"{before}from rigid").get_xdata().tolist() == [1, 2, 3, 4]
+
+
+def test_a_run_that_settles_is_drawn_with_its_tolerance(case):
+    run = case.replace({"run.iterations": None, "run.tolerance": 1e-3}).run()
+    ax = plots.convergence(run)
+    x, shown = labelled(ax, "tolerance 0.001").get_data()
+    assert list(shown) == [1e-3, 1e-3] and x[0] < 1.0 and x[-1] > len(run.changes)
+    assert ax.get_yscale() == "log"
+    rigid = case.replace({"run.interaction": "rigid"}).run()
+    with pytest.raises(rb.InputError, match=r"^run: has no iterations: .*interaction='iterate'"):
+        plots.convergence(rigid)
+
+
+def test_ways_of_loading_stand_under_their_names(run, case):
+    runs = {"condensed": run, "wheels": case.replace({"run.loads": "wheels"}).run(), "own": run}
+    for quantity, call in (
+        ("moment_vertical", "section_forces"), ("acceleration_z", "acceleration"),
+        ("displacement_z", "displacement"), ("rotation_x", "displacement"),
+    ):  # fmt: skip
+        ax = plots.load_modes(runs, 12.0, quantity)
+        assert ax.get_title(loc="left") == "x = 12 m"
+        factor = QUANTITY_STYLES[quantity].factor
+        for name, one in runs.items():
+            known = factor * getattr(one, call)(12.0)[quantity]
+            assert np.allclose(labelled(ax, name).get_ydata(), known)
+
+
+def test_the_rigid_deck_s_spectrum_stands_behind_every_iteration(run):
+    rigid = run.at(0).spectrum
+    for i, ax in enumerate(plots.spectra(run)):
+        behind = [line for line in ax.lines if line.get_gid() == "rigid"]
+        assert len(behind) == (i > 0)
+        for line in behind:
+            assert np.allclose(line.get_ydata(), 1e-3 * rigid.amplitude)
+        own = next(line for line in ax.lines if line.get_gid().endswith("heads"))
+        assert np.allclose(own.get_ydata(), 1e-3 * run.at(i).spectrum.amplitude)
+
+
+def test_a_spectrum_s_marks_say_their_names_and_places(run):
+    ax = plots.spectrum(run, mark={"second bending": 13.23})
+    assert labelled(ax, "second bending 13.23 Hz").get_xdata().tolist() == [13.23, 13.23]
+    assert ax.get_xlim()[0] == ax.get_ylim()[0] == 0.0
+
+
+def test_a_way_in_which_the_deck_is_rigid_is_said(run):
+    deck = rb.Beam("vertical only", (36.0,), 12e3, 9e10).deck(4, 0.02)
+    stiff = rb.cross(run.train, deck, speed=20.0, time_step=8e-3, interaction="rigid")
+    ax = plots.displacement(stiff, 18.0, component="y")
+    assert [text.get_text() for text in ax.texts] == ["the deck has no stiffness given this way"]
+    assert not plots.displacement(stiff, 18.0).texts
+    with pytest.raises(rb.InputError, match="the deck has no such stiffness or bearing there"):
+        plots.influence_line(deck, "torsion", 9.0)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "load", "way"),
+    [("force_z", 1, "upward"), ("force_y", 0, "lateral"), ("moment_x", 2, "roll")],
+)
+def test_an_influence_line_of_a_bearing_says_which(run, quantity, load, way):
+    ax = plots.influence_line(run.deck, quantity, 36.0)
+    line = next(line for line in ax.lines if line.get_gid() == "line")
+    x, shown = line.get_data()
+    assert x[0] == 0.0 and x[-1] == 36.0
+    known = run.deck.recovery.reaction(quantity, 36.0).influence(x)[:, 0, load]
+    assert np.allclose(shown, known) and shown[-1] == pytest.approx(-1.0)
+    assert ax.get_ylabel().replace("\n", " ") == f"per unit {way} load (-)"
+    assert line.get_label() == f"{QUANTITY_STYLES[f'reaction_{quantity[-1]}'].words} at x = 36 m"
+
+
+def test_a_notch_is_drawn_where_the_wheel_is():
+    notch = rb.Notch(((1, 1),), 2.7, 1.0, 1e-3, 0.05)
+    (line,) = plots.notch(notch, -1.0, 10.0).lines
+    x, shown = line.get_data()
+    assert (x[0], x[-1]) == (-1.0, 10.0) and np.allclose(shown, 1e3 * notch.value(x))
+    # A sag of 1 mm at every turn of the wheel, and none is missed between two points.
+    assert shown.min() == pytest.approx(-1.0, abs=1e-3) and np.diff(x).max() <= 0.05 / 8
+
+
+def test_only_wheels_within_a_picture_are_marked_in_it(run):
+    ax = plots.irregularity(TRACK, -5.0, 10.0)
+    plots.wheels_on_track(run.train, TRACK, 18.0, ax=ax)
+    left = np.array([18.0 - wheel.delay for wheel in run.train.wheels if wheel.side == "left"])
+    expected = left[(left >= -5.0) & (left <= 10.0)]
+    assert 0 < len(expected) < len(left)
+    assert labelled(ax, "wheels of the train").get_xdata() == pytest.approx(expected)
+
+
+def test_natural_frequencies_are_ticks_with_names_up_to_where_they_end(run):
+    deck = run.deck
+    ax = plots.frequencies(deck, {"axles": 8.0}, most=20.0)
+    ticks = next(line for line in ax.lines if line.get_gid() == "natural").get_xdata()
+    below = deck.frequencies_hz[deck.frequencies_hz <= 20.0]
+    assert np.array_equal(ticks[::3], below)
+    assert [text.get_text().strip() for text in ax.texts] == list(deck.mode_names[: len(below)])
+    assert [text.get_position()[0] for text in ax.texts] == pytest.approx(below)
+    assert labelled(ax, "axles 8 Hz").get_xdata().tolist() == [8.0, 8.0]
+    assert ax.get_xlim()[0] < below[0] and ax.get_xlim()[1] == 20.0
+    words = [t.get_text().split(" \n") for t in plots.frequencies(run.train.vehicles[0]).texts]
+    assert words[:3] == [["car sway "], ["car yaw", "car roll "], ["car bounce "]]
+    far = plots.frequencies(deck, {"far": 500.0})
+    assert far.get_xlim()[1] > 500.0, "a mark beyond the last frequency is still seen"
+
+
+def test_marked_frequencies_of_damping_are_points_with_names():
+    alpha, beta, marks = 1.0364, 4.87e-4, {"second": 13.23, "beside": 13.5, "far": 90.0}
+    ax = plots.damping(alpha, beta, marks)
+    x, shown = next(line for line in ax.lines if line.get_gid() == "points").get_data()
+    assert x == pytest.approx(list(marks.values()))
+    assert shown == pytest.approx(100 * (alpha / (4 * np.pi * x) + beta * np.pi * x))
+    assert {t.get_text().strip(): t.get_position()[0] for t in ax.texts} == {
+        f"{name}, {f:g} Hz": f for name, f in marks.items()
+    }
+    assert ax.get_xlim()[0] < 0.5 and ax.get_xlim()[1] > 90.0 and ax.get_ylim()[1] > max(shown)
+
+
+def test_dimensions_and_masses_of_a_car_are_its_own():
+    side, above, front = (
+        [text.get_text() for text in ax.texts if text.get_text()]
+        for ax in plots.vehicle(rb.vehicle("xia2000"))
+    )
+    assert side == ["car\n50.99 t", "2.5 m", "13.1 m", "2.5 m", "length 22.5 m"]
+    assert above == ["front bogie\n4.36 t", "rear bogie\n4.36 t"] and front == ["1.96 m"]
+
+
+@pytest.mark.parametrize(
+    ("mode", "words"),
+    [
+        (1, "Car sways (56 %) and rolls (43 %) - shares of the kinetic energy."),
+        (8, "Rear bogie pitches (96 %) - shares of the kinetic energy. Same frequency as mode 9: "
+            "any mix of them is a mode as well."),
+    ],
+)  # fmt: skip
+def test_what_moves_is_said_in_words(mode, words):
+    car = rb.vehicle("xia2000")
+    assert plots.sketches.what_moves(car, car.modes(), mode) == words
+
+
+def test_a_train_at_rest_stands_where_it_is_said_to(run):
+    """With bare axles their loads stand above them."""
+    for train, place in ((run.train, 40.0), (rb.AxleTrain([0.0, 3.0], [1e5, 2e5]), None)):
+        ax = plots.train_on_deck(train, run.deck, position=place)
+        drawn = {line.get_gid(): line.get_xdata() for line in ax.lines}
+        stand = sorted((place or 0.0) - axle.delay for axle in train.placed_axles)
+        assert sorted(drawn["wheels"]) == pytest.approx(stand)
+        assert list(drawn["bearings"]) == [0.0, 36.0] and list(drawn["deck"]) == [0.0, 36.0]
+        assert ("loads" in drawn) == (place is None)
+        if place is None:
+            assert sorted(drawn["loads"][::3]) == pytest.approx(stand)
+        low, high = ax.get_xlim()
+        assert low < min(stand) and high > max(36.0, *stand)
+        assert [text.get_text() for text in ax.texts] == ["viaduct36, 36 m"]
+
+
+def test_a_box_is_drawn_with_its_own_dimensions_and_left_is_left():
+    own = replace(box(), root_thickness=0.31, edge_thickness=0.18, bottom_spacing=4.4)
+    ax = plots.box_section(own, box().section)
+    shown = [text.get_text() for text in ax.texts if text.get_text()]
+    assert shown == [
+        "left track\ny = 2.4 m", "right track\ny = -2.4 m", "9.60 m", "5.00 m", "4.40 m", "2.00 m",
+        "0.18", "0.31", "0.25", "0.20", "0.35",
+    ]  # fmt: skip
+    left, right = ax.get_xlim()
+    assert left > 4.8 and right < -4.8, "seen along the track: the left track stands on the left"
+    drawn = {line.get_gid(): line.get_xydata() for line in ax.lines}
+    assert drawn["centroid"][0] == pytest.approx(box().section.centroid)
+    assert drawn["shear centre"][0] == pytest.approx(box().section.shear_centre)
+    for side, y in (("left", 2.4), ("right", -2.4)):
+        assert drawn[f"rails {side}"][:, 0].mean() == pytest.approx(y)
+        assert np.ptp(drawn[f"rails {side}"][:, 0]) == pytest.approx(1.435)
+
+
+def test_a_mode_of_plates_says_which_and_how_both_sides_move():
+    shell, _ = shell_and_modes()
+    modes = shell.modes(10)
+    for number, name in enumerate(modes.names, start=1):
+        title = f"{number}: {name}, {modes.frequencies_hz[number - 1]:.2f} Hz"
+        if name.startswith("local"):
+            alike = "alike" if modes.symmetric[number - 1] else "opposite"
+            title += f", {modes.parts[number - 1]}, left and right {alike}"
+        if number in (1, 8, 10):
+            assert plots.shell_mode(shell, modes, number).get_title(loc="left") == title
+    assert modes.symmetric[7] != modes.symmetric[9]
+    ax = plots.shell_mode(shell, modes, 1, scale=0.5)
+    assert ax.get_xlabel() == "length 36.6 (m), motion drawn up to 0.5 (m)"
+    for wrong in ({"mode": 11}, {"mode": 1, "scale": 0.0}):
+        with pytest.raises(rb.InputError, match=f"^{list(wrong)[-1]} = "):
+            plots.shell_mode(shell, modes, **wrong)
+
+
+def test_likeness_stands_in_the_row_and_column_of_its_modes():
+    criterion = [[0.98, 0.04, 0.06], [0.02, 0.75, 0.5]]
+    ax = plots.assurance(criterion, ("a", "b"), ("d", "e", "f"), what=("box", "bar"))
+    shown = {text.get_position(): text.get_text() for text in ax.texts}
+    assert shown == {(0, 0): "0.98", (2, 0): "0.06", (1, 1): "0.75", (2, 1): "0.50"}
+    assert [label.get_text() for label in ax.get_xticklabels()] == ["d", "e", "f"]
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["a", "b"]
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("mode of the bar (-)", "mode of the box")
+    with pytest.raises(
+        rb.InputError, match=r"^criterion = \(2, 3\): must have a row and a column "
+    ):
+        plots.assurance(criterion, ("a", "b", "c"), ("d", "e", "f"))
 
 
 def test_iterations_are_drawn_under_their_own_numbers(run):

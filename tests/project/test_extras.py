@@ -92,9 +92,9 @@ def test_other_errors_are_no_excuse(conftest):
 @pytest.mark.parametrize(
     ("text", "extra"),
     [
-        ("# 04 - Find\n\nNeeds the extra `fem` from here on.\n\n**Why?**", "fem"),
-        ("# 04 - Find\n\n**Why?**\n\nNeeds the extra `fem`.", None),
-        ("# 04 - Find", None),
+        ("# 14 - Compare\n\nNeeds the extra `fem` from here on.\n\n**Why?**", "fem"),
+        ("# 14 - Compare\n\n**Why?**\n\nNeeds the extra `fem`.", None),
+        ("# 14 - Compare", None),
     ],
 )
 def test_a_page_names_its_extra_below_the_title(conftest, text, extra):

@@ -67,6 +67,8 @@ PAGES = {
     "09": Page((GOALS, CHECK, EXERCISES, FOUND, REFERENCES, SYMBOLS), (500, 3000), (20, 280)),
     # The other program that the page needs is written out on it.
     "12": Page(code_lines=(40, 170)),
+    # Two models, and how the box behind them was found.
+    "14": Page(words=(500, 1900), code_lines=(40, 160)),
 }
 COURSE = ("00", "01", "02", "03", "04", "05", "06", "08")
 CELL_LINES = 15

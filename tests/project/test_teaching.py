@@ -90,6 +90,23 @@ def test_a_path_takes_the_time_it_promises(title, minutes):
     assert sum(int(row[0]) for row in rows(title)) == minutes
 
 
+def test_the_lab_leaves_a_quarter_free():
+    """What is planned fits into 90 minutes; the rest is one line that says so."""
+    *planned, free = rows("A lab of 2 hours")
+    assert sum(int(row[0]) for row in planned) == 90
+    assert free[0] == "30" and free[1].startswith("**free**") and free[2]
+    assert not [row for row in planned if "free" in row[1]]
+    assert "90 of 120 minutes are planned" in " ".join(section("A lab of 2 hours").split())
+
+
+def test_minutes_of_the_lab_can_be_done():
+    """No part of a page gets more than the whole page needs, nor less than an eighth of it."""
+    whole = {row[0][1:3]: int(row[1]) for row in rows("Minutes a notebook")}
+    for minutes, students, *_ in rows("A lab of 2 hours"):
+        for number in re.findall(r"\[(0\d)\]\(", students):
+            assert whole[number] / 8 <= int(minutes) <= whole[number], number
+
+
 def test_exercises_figures_equations_and_sections_that_are_named_exist():
     for number in set(re.findall(r"Exercises? (\d)\.\d", TEXT)):
         known = re.findall(rf"^### Exercise ({number}\.\d)", words_of(f"0{number}"), re.MULTILINE)

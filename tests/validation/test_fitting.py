@@ -38,6 +38,34 @@ def test_derivatives_are_those_of_full_solutions():
         assert jacobian[rows, j] == pytest.approx(central, rel=0.05, abs=room)
 
 
+def test_residuals_weigh_the_first_ten_modes_most():
+    problem = fitting.Problem(0, "as ordered", TINY)
+    printed, mass = np.array(published.TABLE2_DECK), published.MASS
+    assert problem._residuals(printed, mass) == pytest.approx(np.zeros(16), abs=1e-12)
+    off = problem._residuals(printed * np.exp(0.01), mass * np.exp(-0.01))
+    assert off == pytest.approx([1.0] * 10 + [0.5] * 5 + [-0.5])
+
+
+def test_unknowns_run_from_their_lower_to_their_upper_bound():
+    problem = fitting.Problem(0, "as ordered", TINY)
+    for share, bound in ((0.0, "low"), (1.0, "high")):
+        known = {u.name: getattr(u, bound) for u in UNKNOWNS}
+        assert problem.values(np.full(len(UNKNOWNS), share)) == pytest.approx(known)
+    box = problem.box(HALF)
+    assert box.depth == pytest.approx(middle()["depth"])
+    assert box.bottom_spacing / box.web_spacing == pytest.approx(middle()["bottom share"])
+    pads = box.bearings
+    assert pads[0].stiffness == pytest.approx({"x": 10 ** middle()["log10 stiffness"]})
+    assert [p.drop for p in pads] == pytest.approx([middle()["drop"]] * 2)
+
+
+@pytest.mark.parametrize(("mass", "more"), [(1.0, 0.0), (1.1, 0.0), (1.13, 3.0), (0.85, 5.0)])
+def test_a_mass_costs_what_it_is_more_than_ten_per_cent_off(mass, more):
+    printed = np.array(published.TABLE2_DECK)
+    fit = candidates.Fit({}, 0, "as ordered", 1.02 * printed, (), mass * published.MASS)
+    assert fitting._cost(fit) == pytest.approx(2.0 + more)
+
+
 def test_search_recovers_a_box_whose_frequencies_are_given(monkeypatch):
     """Fitted to the frequencies of a box of our own, the residual falls to nearly nothing."""
     truth = candidates.evaluate(middle(), mesh=TINY)

@@ -115,6 +115,96 @@ def test_table_shows_shell_and_beam(fit):
     assert frequency == pytest.approx(fit.frequencies_hz[0], rel=0.05) and likeness > 0.95
 
 
+def test_the_table_sets_each_mode_beside_the_printed_one():
+    printed = np.array(published.TABLE2_DECK)
+    names = tuple(f"mode {i}" for i in range(15))
+    torsion_third = "torsion third, second vertical fourth"
+    solved = printed * np.repeat([1.1, 0.8], [10, 5])
+    made = candidates.Fit(middle(), 0, torsion_third, solved, names, 12e3)
+    assert made.rms() == pytest.approx(10.0)
+    assert made.rms(15) == pytest.approx(np.sqrt((10 * 10.0**2 + 5 * 20.0**2) / 15))
+    frame = ident.table(made)
+    columns = ["printed (Hz)", "shell (Hz)", "difference (%)", "mode of the shell"]
+    assert list(frame.columns) == columns
+    assert frame.index.name == "mode" and frame.index.tolist() == list(range(1, 16))
+    assert frame["printed (Hz)"].tolist() == printed.tolist()
+    assert frame["shell (Hz)"].tolist() == solved.tolist()
+    assert frame["difference (%)"].tolist() == pytest.approx([10.0] * 10 + [-20.0] * 5)
+    assert frame["mode of the shell"].tolist() == list(names)
+    beam = {"torsion 1": (15.2, 0.9), "vertical 2": (13.5, 0.8)}
+    frame = ident.table(made, beam)
+    assert list(frame.columns) == [*columns, "beam (Hz)", "likeness of shell and beam"]
+    known = frame[["beam (Hz)", "likeness of shell and beam"]].dropna()
+    assert known.index.tolist() == [3, 4]
+    assert known.to_numpy().tolist() == [[15.2, 0.9], [13.5, 0.8]]
+
+
+@pytest.mark.parametrize(
+    ("unit", "value", "written"),
+    [
+        ("m", 0.25049, 0.25), ("Pa", 34.26e9, 34.3e9), ("kg/m", 700.4, 700.0), ("-", 0.8756, 0.876),
+        ("N/m", 9.876, 9.88), ("m", -1e-5, 0.0),
+    ],
+)  # fmt: skip
+def test_dimensions_are_rounded_as_in_a_drawing(unit, value, written):
+    found = candidates.Unknown("x", 0.0, 1.0, unit, "why").rounded(value)
+    assert str(found) == str(written)
+
+
+def made(hypothesis="as ordered", factor=1.0, tail=1.0):
+    """A fit whose first ten frequencies are a factor off the printed ones, the others another."""
+    printed = np.array(published.TABLE2_DECK)
+    frequencies = printed * np.where(np.arange(15) < 10, factor, tail)
+    names = tuple(f"mode {i}" for i in range(15))
+    return candidates.Fit({"depth": 2.0}, 0, hypothesis, frequencies, names, 11234.56)
+
+
+def test_a_fit_tells_how_far_it_is_off():
+    fit = made(factor=1.02, tail=0.96)
+    assert fit.differences == pytest.approx([2.0] * 10 + [-4.0] * 5)
+    assert fit.rms() == pytest.approx(2.0)
+    assert fit.rms(15) == pytest.approx(np.sqrt((10 * 4.0 + 5 * 16.0) / 15))
+    kept = fit.to_dict()
+    assert kept["rms_first_ten_percent"] == 2.0 and kept["mass"] == 11234.6
+    assert kept["rms_all_percent"] == pytest.approx(2.828, abs=1e-3)
+    assert kept["frequencies_hz"] == pytest.approx(fit.frequencies_hz, abs=5e-5)
+
+
+@pytest.mark.parametrize("hypothesis", candidates.HYPOTHESES)
+def test_the_beam_stands_in_the_row_of_the_printed_mode_it_is_paired_with(hypothesis):
+    fit = made(hypothesis, factor=1.02)
+    beam = {family: (float(i + 1), 0.9 - 0.1 * i) for i, family in enumerate(candidates.FAMILIES)}
+    frame = ident.table(fit, beam)
+    assert list(frame.columns) == [
+        "printed (Hz)", "shell (Hz)", "difference (%)", "mode of the shell", "beam (Hz)",
+        "likeness of shell and beam",
+    ]  # fmt: skip
+    assert list(frame.index) == list(range(1, 16)) and frame.index.name == "mode"
+    places = candidates.HYPOTHESES[hypothesis]
+    for place, (frequency, likeness) in zip(places, beam.values(), strict=True):
+        row = frame.loc[place + 1]
+        assert (row["beam (Hz)"], row["likeness of shell and beam"]) == (frequency, likeness)
+    assert frame["beam (Hz)"].isna().sum() == 10
+    assert frame["printed (Hz)"].tolist() == list(published.TABLE2_DECK)
+    assert frame["shell (Hz)"].tolist() == fit.frequencies_hz.tolist()
+    assert frame["difference (%)"].tolist() == pytest.approx([2.0] * 10 + [0.0] * 5)
+    assert frame["mode of the shell"].tolist() == list(fit.names)
+    assert list(ident.table(fit).columns) == list(frame.columns)[:4]
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "written"),
+    [
+        ("depth", 2.13449, 2.134), ("youngs_modulus", 3.4761e10, 3.48e10),
+        ("track_mass", 2323.4, 2323.0), ("bottom share", 0.87654, 0.877),
+        ("log10 stiffness", 9.8765, 9.88), ("drop", -1e-5, 0.0),
+    ],
+)  # fmt: skip
+def test_a_value_is_written_as_into_a_drawing(name, value, written):
+    unknown = next(u for u in candidates.UNKNOWNS if u.name == name)
+    assert unknown.rounded(value) == written and np.copysign(1.0, unknown.rounded(value)) == 1.0
+
+
 def test_missing_result_names_the_command(monkeypatch, tmp_path):
     monkeypatch.setenv("RAILBRIDGE_DATA", str(tmp_path))
     with pytest.raises(InputError, match="make identify"):

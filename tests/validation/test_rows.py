@@ -39,6 +39,37 @@ def test_printed_rows_as_text_and_as_frame_agree():
 def test_signs_count_unless_they_are_not_explained():
     assert Row("x", "moment", "kN m", -10.0, 10.0).difference == 2.0
     assert Row("x", "moment", "kN m", -10.0, 10.0, unsigned=True).difference == 0.0
+    assert Row("x", "moment", "kN m", 10.0, -11.0, unsigned=True).difference == pytest.approx(0.1)
+    assert Row("x", "moment", "kN m", -10.0, -11.0).difference == pytest.approx(-0.1)
+
+
+def test_a_row_is_labelled_with_its_unit_if_it_has_one():
+    assert Row("x", "moment", "kN m", 1.0, 1.0).label == "moment (kN m)"
+    assert Row("x", "dynamic factor", "", 1.0, 1.0).label == "dynamic factor"
+
+
+def test_a_block_of_lines_stands_below_the_head_of_its_case():
+    rows = [
+        Row("first", "sag", "mm", 2.0, 2.001, "a step", "by hand", 1e-2),
+        Row("first", "factor", "", 1.5, 1.5, "a step", "paper", 1e-2),
+        Row("second", "sag", "mm", 3.0, 3.0, "a step", "by hand", 1e-2),
+    ]
+    words = [line.split() for line in verification.report(rows).splitlines()]
+    heads = ["theirs", "ours", "difference"]
+    assert words[0] == ["first", *heads] and words[4] == ["second", *heads]
+    assert words[1][:2] == ["sag", "(mm)"]
+    assert words[1][-6:] == ["<", "1e-03", "by", "hand;", "a", "step"]
+    assert words[2][0] == "factor" and words[2][-3:] == ["paper;", "a", "step"]
+    assert words[3] == [] and words[5][-4:] == ["by", "hand;", "a", "step"]
+    frame = verification.frame(rows)
+    assert frame["case"].tolist() == ["first: sag (mm)", "first: factor", "second: sag (mm)"]
+    assert frame["source"].tolist() == ["by hand", "paper", "by hand"]
+
+
+def test_a_reason_is_given_again_below_another_head():
+    rows = [Row(case, "sag", "mm", 2.0, 2.0, "a step") for case in ("first", "first", "second")]
+    shown = [line for line in paper.report(rows).splitlines() if line.strip().startswith("sag")]
+    assert [line.split()[-1] for line in shown] == ["step", '"', "step"]
 
 
 def test_a_row_beyond_its_limit_says_so():

@@ -2,11 +2,11 @@
 
 from .cars import planar_car, sprung_mass, two_bogie_car
 from .definition import Case, case
-from .objects import box, car_parameters, deck, deck_from_table, vehicle
+from .objects import box, car_parameters, deck, deck_from_table, varied_car, vehicle
 from .shelf import data_root
 from .summary import summarize
 
 __all__ = [
     "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table", "planar_car",
-    "sprung_mass", "summarize", "two_bogie_car", "vehicle",
+    "sprung_mass", "summarize", "two_bogie_car", "varied_car", "vehicle",
 ]  # fmt: skip

@@ -30,6 +30,7 @@ PAGES = (
     "LICENSE-notebooks.md",
     "docs/case.md",
     "docs/exchange.md",
+    "docs/symbols.md",
     "docs/crossing.png",
 )
 """What the notebooks lead to, besides each other and the data files."""
@@ -113,7 +114,7 @@ def _fitted(name: str, content: bytes, known: set[str], edition: str) -> bytes:
             if cell["cell_type"] == "markdown":
                 text = _with_links(f"notebooks/{name}", "".join(cell["source"]), name, known)
                 cell["source"] = text.splitlines(keepends=True)
-        return (json.dumps(notebook, indent=1, ensure_ascii=False) + "\n").encode("utf-8")
+        return _as_file(notebook)
     if name.endswith(".md"):
         return _with_links(name, content.decode("utf-8"), name, known).encode("utf-8")
     return content
@@ -176,7 +177,7 @@ def plan(folder: Path, force: bool = False, edition: str = "reader") -> list[Cop
         if not target.is_file():
             allowed = "stands where a file of the suite goes and is none"
             raise InputError("DIR", str(target), allowed, "Move it, or choose another DIR")
-        now = target.read_bytes()
+        now = _as_handed_out(name, target.read_bytes(), content)
         if now == content:
             result.append(Copy(name, "unchanged", content))
         elif _digest(now) == known.get(name):
@@ -186,6 +187,22 @@ def plan(folder: Path, force: bool = False, edition: str = "reader") -> list[Cop
         else:
             result.append(Copy(name, "kept", content))
     return result
+
+
+def _as_handed_out(name: str, now: bytes, content: bytes) -> bytes:
+    """Return a copy without what JupyterLab writes into a page that was only opened: its kernel."""
+    if not name.endswith(".ipynb"):
+        return now
+    try:
+        notebook = json.loads(now)
+        notebook["metadata"] = json.loads(content)["metadata"]
+        return _as_file(notebook)
+    except (ValueError, TypeError, RecursionError):
+        return now
+
+
+def _as_file(notebook: dict) -> bytes:
+    return (json.dumps(notebook, indent=1, ensure_ascii=False) + "\n").encode("utf-8")
 
 
 def stage(copies: list[Copy], folder: Path, scratch: Path) -> None:

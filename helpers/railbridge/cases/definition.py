@@ -64,12 +64,12 @@ class Case:
     content: dict[str, Any]
     like: InitVar[Case | None] = None
     unchanged: InitVar[frozenset[str]] = frozenset()
-    train: AnyTrain = field(init=False, repr=False, compare=False)
-    deck: Deck = field(init=False, repr=False, compare=False)
-    track: Track = field(init=False, repr=False, compare=False)
-    options: dict[str, Any] = field(init=False, repr=False, compare=False)
-    settings: Settings = field(init=False, repr=False, compare=False)
-    points: np.ndarray = field(init=False, repr=False, compare=False)
+    train: AnyTrain = field(init=False, compare=False)
+    deck: Deck = field(init=False, compare=False)
+    track: Track = field(init=False, compare=False)
+    options: dict[str, Any] = field(init=False, compare=False)
+    settings: Settings = field(init=False, compare=False)
+    points: np.ndarray = field(init=False, compare=False)
 
     def __repr__(self) -> str:
         cars, speed = len(self.train.formation), self.settings.speed

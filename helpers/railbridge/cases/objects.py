@@ -17,7 +17,7 @@ from .. import errors, exchange
 from ..beams import Beam, Bearing, Section
 from ..boxes import Box, BoxMesh, Pads
 from ..decks import Deck, rayleigh
-from ..errors import InputError, Remark, ResultWarning, plain, within
+from ..errors import InputError, Remark, ResultWarning, did_you_mean, plain, within
 from ..exchange import ModesTable
 from ..plausibility import damping_frequencies
 from ..tracks import Harmonic, Irregularity, Level, Notch, Rails, Track
@@ -30,7 +30,7 @@ from .tabletypes import Table, checked
 
 __all__ = [
     "box", "box_from_table", "car_parameters", "deck", "deck_from_table", "deck_of_case",
-    "track_of_case", "train_of_case", "vehicle", "words_of_deck",
+    "track_of_case", "train_of_case", "varied_car", "vehicle", "words_of_deck",
 ]  # fmt: skip
 
 # ---- vehicles
@@ -67,6 +67,36 @@ def car_parameters(source: str | Path) -> dict[str, float]:
     units = {name: bounds.unit for name, bounds in CAR_PARAMETERS.items()}
     path, same = shelf.data_file("vehicles", source), {"static_wheelset_mass": "wheelset_mass"}
     return shelf.read_parameters(path, units, OPTIONAL_PARAMETERS, same)
+
+
+def varied_car(source: str | Path, **factors: float) -> Vehicle:
+    """Build a two-bogie car with some of the parameters of its table multiplied.
+
+    Parameters
+    ----------
+    source : str or Path
+        As for `car_parameters`.
+    **factors : float
+        By the name that the parameter has in the table: ``car_body_mass=1.3`` makes the car body
+        30 % heavier. Those that are not named stay as they are.
+
+    Returns
+    -------
+    Vehicle
+
+    Raises
+    ------
+    InputError
+        A name that the table does not have (the nearest is suggested), a factor that is negative or
+        no number, or a car that cannot be.
+    """
+    parameters = car_parameters(source)
+    for name, factor in factors.items():
+        if name not in parameters:
+            near = did_you_mean(name, parameters)
+            raise InputError(name, factor, "is no parameter of this car", near, str(source))
+        parameters[name] *= errors.number(name, factor, least=0.0)
+    return two_bogie_car(f"{Path(source).stem} varied", **parameters)
 
 
 def _vehicle_from_table(name: str, content: dict[str, Any]) -> Vehicle:

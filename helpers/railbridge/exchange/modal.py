@@ -43,6 +43,8 @@ _FAR = 10.0
 """How far a first frequency may lie off the range of EN 1991-2 without being refused."""
 
 
+_MISFIT = 0.2
+"""Share by which rotations may miss the slopes and still be used as slopes."""
 _STILL = 1e-3
 """Motion in the middle of a span, share of the largest anywhere, below which it stands still."""
 
@@ -182,7 +184,8 @@ def deck_from_modes(
     for i, j in np.argwhere(~np.isfinite(shapes[0, :, :, 0]))[:1]:
         allowed = "is a node of the rail that the modes leave out"
         raise InputError("line", line.labels[i][j], allowed, "Write the modes there too")
-    functions = _along(line, shapes, model.rotations)
+    said: list[Remark] = []
+    functions = _along(line, shapes, model.rotations, said)
     motion = _motion(functions)
     size = np.sum(motion**2, axis=-1)
     if not size.any():
@@ -200,7 +203,7 @@ def deck_from_modes(
     if not unusual:
         _refuse_units(line, supports, frequencies, rail, size[kept])
     if model.masses is None:
-        _warn_of_overlap(model, motion, kept)
+        _warn_of_overlap(model, motion, kept, said)
     if damping is not None and np.isscalar(damping):
         ratios = np.full(len(kept), errors.number("damping", damping, least=0.0, most=0.5))
     elif damping is not None:
@@ -222,10 +225,16 @@ def deck_from_modes(
         tracks=dict(tracks or {}),
         width=width,
         track_height=track_height,
-        remarks=tuple(remarks),
+        remarks=(*remarks, *said),
     )
     accepted = unusual and scale_in_doubt(made)
     return replace(made, remarks=(*made.remarks, Remark(*UNUSUAL))) if accepted else made
+
+
+def _warn(said: list[Remark], text: str) -> None:
+    """Warn whoever reads the modes, and keep the sentence for the results."""
+    warnings.warn(text, stacklevel=4)
+    said.append(Remark("", text))
 
 
 def _still(functions: PiecewiseCubic, kept: np.ndarray, supports: Sequence[float]) -> list[Remark]:
@@ -240,10 +249,10 @@ def _still(functions: PiecewiseCubic, kept: np.ndarray, supports: Sequence[float
     still = np.flatnonzero((moving < _STILL * largest) & (np.diff(edges) > 1e-6 * edges[-1]))
     if not len(still):
         return []
-    i = still[0]
+    i, others = still[0], len(still) - 1
     text = (
         f"move nothing up and down from x = {edges[i]:g} to {edges[i + 1]:g} m"
-        + f", nor in {len(still) - 1} other spans" * (len(still) > 1)
+        + f", nor in {others} other span{'s' * (others > 1)}" * (others > 0)
         + ": too few modes were written."
     )
     return [ResultWarning("modes", text)]
@@ -259,9 +268,12 @@ def _checked_supports(supports: Sequence[float], length: float) -> tuple[float, 
 
 
 def _along(
-    line: RailLine, shapes: np.ndarray, rotations: tuple[bool, bool, bool]
+    line: RailLine, shapes: np.ndarray, rotations: tuple[bool, bool, bool], said: list[Remark]
 ) -> PiecewiseCubic:
-    """Return the shapes along the deck axis from those of the line's nodes, shape (m, n, k, 6)."""
+    """Return the shapes along the deck axis from those of the line's nodes, shape (m, n, k, 6).
+
+    What is doubtful about them is warned of and added to `said`.
+    """
     _, uy, uz, rx, ry, rz = np.moveaxis(shapes, -1, 0)
     lateral, vertical, twist = line.axis_motion(uy, uz, rx)
     if line.cubic and len(line.x) % 3 == 1:
@@ -272,47 +284,42 @@ def _along(
         (0, lateral, rz, rotations[2], "uy", "rz"),
         (1, vertical, -ry, rotations[1], "uz", "-ry"),
     ):
-        if known and not line.paired and _agree(line.x, value, slope[..., 0], name, rotation):
+        misfit = _misfit(line.x, value, slope[..., 0]) if known and not line.paired else np.inf
+        if misfit < _MISFIT:
             result[..., c] = hermite(line.x, value, slope[..., 0])
         else:
-            _warn_of_few_nodes(value, name)
+            if np.isfinite(misfit):
+                text = f"modes: {rotation} is not the slope of {name} along the rail (off by "
+                text += f"{misfit:.0%} at best), so slopes are taken from the displacements."
+                _warn(said, text)
+            _warn_of_few_nodes(value, name, said)
             result[..., c] = spline(line.x, value)
     result[..., 2] = spline(line.x, twist) if line.paired else parabolas(line.x, twist)
     return PiecewiseCubic(line.x, result)
 
 
-def _agree(x: np.ndarray, values: np.ndarray, slopes: np.ndarray, name: str, rotation: str) -> bool:
-    """Whether rotations are slopes of the displacements, in the mode where they fit best.
+def _misfit(x: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> float:
+    """Return how far rotations are from the slopes of the displacements, where they fit best.
 
-    If not, say so in a warning. Usual reasons: drilling rotations of shells, left-handed rotations,
-    other units of the angle.
+    Usual reasons why they are not: drilling rotations of shells, left-handed rotations, other units
+    of the angle.
     """
     from_values = CubicSpline(x, values, axis=-1)(x, 1)
     size = np.linalg.norm(from_values, axis=1)
     bent = size > 1e-3 * size.max()
     misfit = np.linalg.norm(slopes - from_values, axis=1)[bent] / size[bent]
-    if len(misfit) == 0 or misfit.min() < 0.2:
-        return True
-    warnings.warn(
-        f"modes: {rotation} is not the slope of {name} along the rail (off by {misfit.min():.0%} "
-        "at best), so slopes are taken from the displacements.",
-        stacklevel=4,
-    )
-    return False
+    return float(misfit.min()) if len(misfit) else 0.0
 
 
-def _warn_of_few_nodes(values: np.ndarray, name: str) -> None:
+def _warn_of_few_nodes(values: np.ndarray, name: str, said: list[Remark]) -> None:
     """Warn of modes that change sign more than once in three nodes: no spline can follow them."""
     large = np.abs(values) > 1e-3 * np.abs(values).max()
     changes = [(np.diff(np.sign(v[use])) != 0).sum() for v, use in zip(values, large, strict=True)]
     if max(changes) > values.shape[1] / 3:
         mode = int(np.argmax(changes)) + 1
-        warnings.warn(
-            f"modes: the {values.shape[1]} nodes of the rail are few for {name} of mode {mode}, "
-            f"which changes sign {max(changes)} times. Use a finer line, fewer modes, or write "
-            "rotations too.",
-            stacklevel=4,
-        )
+        text = f"modes: the {values.shape[1]} nodes of the rail are few for {name} of mode {mode}"
+        text += f", which changes sign {max(changes)} times. Use a finer line, fewer modes, or "
+        _warn(said, text + "write rotations too.")
 
 
 def _motion(functions: PiecewiseCubic) -> np.ndarray:
@@ -329,7 +336,9 @@ def _motion(functions: PiecewiseCubic) -> np.ndarray:
     return np.moveaxis(values * np.sqrt(lengths)[:, None, None], 0, -1)
 
 
-def _warn_of_overlap(model: ModalModel, motion: np.ndarray, kept: np.ndarray) -> None:
+def _warn_of_overlap(
+    model: ModalModel, motion: np.ndarray, kept: np.ndarray, said: list[Remark]
+) -> None:
     """Warn of modes that look alike along the rail of a uniform deck.
 
     Without masses nobody can say more. Only modes of the whole deck that hardly twist are compared,
@@ -346,11 +355,8 @@ def _warn_of_overlap(model: ModalModel, motion: np.ndarray, kept: np.ndarray) ->
     if overlap.max(initial=0.0) > 0.3:
         i, j = np.unravel_index(np.argmax(overlap), overlap.shape)
         pair = f"modes {model.labels[bending[i]]} and {model.labels[bending[j]]}"
-        warnings.warn(
-            f"modes: {pair} overlap by {overlap[i, j]:.2f} along the rail of a uniform deck. Give "
-            "the nodal masses to have their orthogonality checked.",
-            stacklevel=3,
-        )
+        text = f"modes: {pair} overlap by {overlap[i, j]:.2f} along the rail of a uniform deck. "
+        _warn(said, text + "Give the nodal masses to have their orthogonality checked.")
 
 
 def _names(model: ModalModel, size: np.ndarray, kept: np.ndarray) -> tuple[str, ...]:

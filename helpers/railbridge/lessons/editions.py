@@ -37,10 +37,8 @@ CHECKED = re.compile(r'rb\.check\("([^"]+)"')
 SOLUTION = re.compile(r"<details>\s*<summary>Solution[^<]*</summary>(.*?)</details>\s*", re.DOTALL)
 BLOCK = re.compile(r"```python\n(.*?)```", re.DOTALL)
 SEEN = re.compile(r"<!-- seen -->\s*(.*?)\s*<!-- /seen -->", re.DOTALL)
-# A caption ends with its paragraph; its first sentence before a capital: not "Eq. 3" nor "14.4 m".
-CAPTION = re.compile(
-    r"\A(\*\*Figure \d+\.\d+\.\*\*\s+.*?[.?!])\s+(?=[A-Z*$])(.*?)(?=\n\s*\n|\Z)", re.DOTALL
-)
+# The first sentence of a caption ends before a capital: not at "Eq. 3" nor at "14.4 m".
+CAPTION = re.compile(r"(\*\*Figure \d+\.\d+\.\*\*\s+.*?[.?!])\s+(?=[A-Z*$])(.+)", re.DOTALL)
 FOLD = "<details><summary>Compare: what we see</summary>\n\n{}\n\n</details>"
 
 
@@ -122,10 +120,10 @@ def _folded(notebook: Notebook) -> Notebook:
 
 def _with_folds(text: str) -> str:
     """Fold what would give an observation away."""
-    caption = CAPTION.match(text)
+    first, blank, rest = text.partition("\n\n")
+    caption = CAPTION.fullmatch(first.strip())
     if caption:
-        rest = text[caption.end() :]
-        text = f"{caption.group(1)}\n\n{FOLD.format(caption.group(2).strip())}{rest}"
+        text = f"{caption.group(1)}\n\n{FOLD.format(caption.group(2))}{blank}{rest}"
     return SEEN.sub(lambda found: FOLD.format(found.group(1)), text)
 
 

@@ -14,8 +14,6 @@ from ..errors import InputError
 
 __all__ = ["Control", "change_at", "for_case"]
 
-_LABEL_WIDTH = "8.2em"  # room for the longest label: what does not fit is cut
-
 
 @dataclass(frozen=True)
 class Control:
@@ -87,24 +85,59 @@ class Control:
 
     def widget(self, value: Any) -> widgets.Widget:
         """Make the slider or list, displaying a value given in SI units."""
-        layout = widgets.Layout(flex="1 1 21em", min_width="0")
-        style = {"description_width": _LABEL_WIDTH}
-        options = {"description": self.label, "style": style, "layout": layout}
+        options = {"description": self.label}
         if self.choices:
             return widgets.Dropdown(options=self.choices, value=value, **options)
         value, low, high, step = map(self.displayed_value, (value, self.low, self.high, self.step))
-        options |= {"min": low, "max": high, "step": step}
-        if self.is_whole:
-            return widgets.IntSlider(value, readout_format="d", **options)
-        return widgets.FloatSlider(value, readout_format=".1f" if step >= 0.1 else ".3f", **options)
+        options |= {"min": low, "max": high, "step": step, "readout": False}
+        return (widgets.IntSlider if self.is_whole else widgets.FloatSlider)(value, **options)
 
-    def player(self, slider: widgets.Widget) -> widgets.Widget:
-        """Make the buttons that let a slider run by itself, in the browser."""
-        layout = widgets.Layout(flex="0 0 auto", width="5.5em")
+    def field(self, value: Any) -> widgets.Text | None:
+        """Make the field for the slider's number; None beside a list.
+
+        A slider's own would read 12,5 as 12 in the browser.
+        """
+        if self.choices:
+            return None
+        layout = widgets.Layout(flex="0 0 auto", width="4.8em")
+        options = {"continuous_update": False, "tooltip": f"{self.label}, typed", "layout": layout}
+        field = widgets.Text(self.written(value), **options)
+        field.add_class("rb-number")
+        return field
+
+    def written(self, value: Any) -> str:
+        """Return an SI value as its field shows it, with as many digits as it needs."""
+        displayed = self.displayed_value(value)
+        if self.is_whole:
+            return str(displayed)
+        text = f"{displayed:.{1 if self.displayed_value(self.step) >= 0.1 else 3}f}"
+        return text if float(text) == displayed else f"{displayed:.9g}"
+
+    def read(self, text: str) -> Any:
+        """Return the SI value of what was typed into the field.
+
+        Raises
+        ------
+        InputError
+            No number, or one out of the slider's range; in the words of its label.
+        """
+        number = _number(text)
+        if number is None:
+            pointed = text.strip().replace(",", ".")
+            remedy = "" if _number(pointed) is None else f"Write it with a point: {pointed}"
+            raise InputError(self.label, text, "is no number", remedy)
+        low, high = map(self.displayed_value, (self.low, self.high))
+        if not low <= number <= high:
+            raise InputError(self.label, text, f"must be between {low:g} and {high:g}")
+        if self.is_whole and number != int(number):
+            raise InputError(self.label, text, "must be a whole number")
+        return int(number) if self.is_whole else self.si_value(number)
+
+    def player(self, slider: widgets.Widget) -> tuple[widgets.Widget, widgets.Widget]:
+        """Make the buttons that let a slider run by itself in the browser, and the link to it."""
         options = {"min": self.low, "max": self.high, "step": 2 * self.step, "interval": 100}
-        play = widgets.Play(slider.value, show_repeat=False, layout=layout, **options)
-        widgets.jslink((play, "value"), (slider, "value"))
-        return play
+        play = widgets.Play(slider.value, show_repeat=False, **options)
+        return play, widgets.jslink((play, "value"), (slider, "value"))
 
     def si_value(self, displayed: Any) -> Any:
         """Return the SI value of what the widget displays."""
@@ -145,6 +178,13 @@ def change_at(changes: dict[str, Any], case: Case, path: str, value: Any) -> Non
         values[int(last)] = value
     else:
         changes[path] = value
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
 
 
 def _value_at(case: Case, path: str) -> Any:

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import plots
 from ..cases.definition import Case
 from ..cases.definition import case as load_case
-from ..decks import rayleigh
+from ..decks import Deck, rayleigh
 from ..errors import Remark
 from ..plots.forces import car_components, mark_instant
-from ..plots.scene import crossing_at
+from ..plots.scene import arrow_force, axle_forces, comfortable_exaggeration, crossing_at
+from ..plots.speeds import force_over_speed, frequency_met, speeds_in_step
 from ..plots.style import mode_in_words
 from ..results import Crossing
-from ..trains import CONDENSED, steady_forces
+from ..tracks import Track
+from ..trains import AnyTrain, steady_forces
 from .control import Control
 from .panel import DPI, Panel
 
@@ -25,6 +29,8 @@ __all__ = [
 ]  # fmt: skip
 
 ITERATIONS = 4
+ALMOST_ZERO = 0.01  # of a car's weight: below, a force is no measure for another
+_NOTHING = "the rigid-deck force is almost zero here, so a per cent figure says nothing"
 LOADS = {"condensed": "condensed loads", "bogies": "bogie loads", "wheels": "wheel loads"}
 
 Values = Mapping[str, Any]
@@ -35,13 +41,14 @@ Stages = Mapping[int, Crossing]
 # ---- the controls, in their fixed order
 
 
+_SPEEDS = (5.0, 80.0)  # m/s, ends of the slider
+
+
 def _speed() -> Control:
     def in_km_h(v: float) -> str:
         return f"= {3.6 * v:.1f} km/h"
 
-    return Control(
-        "speed", "speed (m/s)", ("run.speed",), 5.0, 80.0, 0.5, unit="m/s", aside=in_km_h
-    )
+    return Control("speed", "speed (m/s)", ("run.speed",), *_SPEEDS, 0.5, unit="m/s", aside=in_km_h)
 
 
 def _wavelength() -> Control:
@@ -52,6 +59,10 @@ def _wavelength() -> Control:
 def _amplitude() -> Control:
     paths = ("track.vertical.amplitude",)
     return Control("amplitude", "amplitude (mm)", paths, 0.0, 0.010, 0.0005, 1e3, "m")
+
+
+_SPEED_GRID = np.linspace(*_SPEEDS, 151)  # m/s, half a metre a second apart
+_FREQUENCIES = (0.1, 40.0)  # Hz, around all that sliders of speed and wavelength can make
 
 
 def _cars() -> Control:
@@ -82,6 +93,11 @@ def _starting_case(case: Case | None, changes: Values) -> Case:
     return case.replace(changes)
 
 
+def _start_name(case: Case | None) -> str:
+    """Return what the legend calls the case that a panel starts from."""
+    return "paper case" if case is None else "at the start"
+
+
 # ---- words and numbers that several panels share
 
 
@@ -108,34 +124,87 @@ def _by_iteration(case: Case, progress: Callable[[str], None] | None = None) -> 
     return {i: run.at(i) for i in range(run.iterations + 1)}
 
 
-def _iteration_in_words(stages: Stages, case: Case, values: Values, plain: bool = False) -> str:
-    """Say the displacement, and how far it has settled.
-
-    Plainly: in the words of someone who has not met Eq. 3.
-    """
+def _sag_in_words(stages: Stages, case: Case, values: Values, how: str = "") -> str:
+    """Say the largest displacement at an iteration and at iteration 0."""
     x, i, last = case.points[0], values["iteration"], stages[max(stages)]
     w, first = (
         1e3 * stages[number].displacement(x).extreme("displacement_z")[0] for number in (i, 0)
     )
-    if i == 0:
-        change = "rigid-deck forces"
-    else:
-        deviation = last.deviations.from_rigid[i - 1]
-        change = "no waves to measure Eq. 3 against"
-        if np.isfinite(deviation):
-            compared = "deviation from the rigid deck"
-            if plain:
-                compared = "the force of car 1 differs from that on a rigid deck by"
-            change = f"{compared} {deviation:+.{1 if plain else 3}f} % (Eq. 3)"
-        size = last.changes[i - 1]
-        if plain:
-            change += f"; the wheel forces changed by {100 * size:.2g} % in this iteration"
-        else:
-            change += f", change of this iteration {size:.1e}"
-    loads = LOADS[last.settings.loads] + ("" if plain else ", fixed number of iterations")
     sag = f"displacement at x = {x:g} m is {w:.2f} mm at iteration {i} of {last.iterations}"
-    before = f"{first:.2f} mm at iteration 0"
-    return f"{_conditions_in_words(values)}{sag} ({loads}), {before}; {change}."
+    loads = LOADS[last.settings.loads] + how
+    return f"{_conditions_in_words(values)}{sag} ({loads}), {first:.2f} mm at iteration 0; "
+
+
+def _bounce(run: Crossing) -> np.ndarray:
+    """Return the vertical force of the first car over time, without its weight, N."""
+    return run.car_forces(1, static=False)["force_z"]
+
+
+def _is_almost_zero(rigid: Crossing) -> bool:
+    """Return whether a car hardly bounces on the rigid deck, so that Eq. 3 divides by nothing."""
+    weight = -rigid.train.car(1).static_forces[:, 1].sum()
+    return bool(np.abs(_bounce(rigid)).max() < ALMOST_ZERO * weight)
+
+
+def _change_from_nothing(stages: Stages, i: int) -> str:
+    """Say in kN what a per cent figure could not say."""
+    change = np.abs(_bounce(stages[i]) - _bounce(stages[0])).max() / 1e3
+    return f"{_NOTHING}: it changes by {change:.1f} kN"
+
+
+class _Story(NamedTuple):
+    """What the explorer shows: a run by iteration, and forces by iteration, as they are asked for.
+
+    A run would keep the forces of all of its wheels, ten times as much.
+    """
+
+    stages: Stages
+    forces: dict[int, tuple[np.ndarray, float]]
+
+    def axles(self, i: int) -> tuple[np.ndarray, float]:
+        """Return the forces of the axles over time, and the largest extra force of a wheel, N."""
+        if i not in self.forces:
+            run = replace(self.stages[i])  # forgotten below, with the forces of its wheels
+            at_rest = np.array([wheel.static_load for wheel in run.train.wheels])
+            extra = float((-run.wheel_forces[:, 1].min(axis=1) - at_rest).max())
+            self.forces[i] = axle_forces(run).astype(np.float32), extra
+        return self.forces[i]
+
+
+def _iteration_in_words(stages: Stages, case: Case, values: Values) -> str:
+    """Say the displacement, and how far it has settled."""
+    i, last = values["iteration"], stages[max(stages)]
+    change = "rigid-deck forces"
+    if i > 0:
+        deviation = last.deviations.from_rigid[i - 1]
+        change = f"deviation from the rigid deck {deviation:+.3f} % (Eq. 3)"
+        if _is_almost_zero(stages[0]):
+            change = _change_from_nothing(stages, i)
+        change += f", change of this iteration {last.changes[i - 1]:.1e}"
+    return f"{_sag_in_words(stages, case, values, ', fixed number of iterations')}{change}."
+
+
+def _story_in_words(story: _Story, case: Case, values: Values) -> str:
+    """Say displacement and forces to someone who has not met Eq. 3."""
+    i, stages = values["iteration"], story.stages
+    last, extra = stages[max(stages)], story.axles(i)[1] / 1e3
+    bounce = float(np.abs(_bounce(stages[i])).max()) / 1e3
+    force = f"largest extra wheel force {extra:.1f} kN; bounce force of car 1 (its wheels "
+    force += f"together, without its weight) up to {bounce:.1f} kN"
+    change = "; rigid-deck forces"
+    if i > 0:
+        change = f", {last.deviations.from_rigid[i - 1]:+.1f} % against a rigid deck (Eq. 3)"
+        if _is_almost_zero(stages[0]):
+            change = f"; {_change_from_nothing(stages, i)}"
+        size = 100 * last.changes[i - 1]
+        change += f"; the wheel forces changed by {size:.2g} % in this iteration"
+    sag = _sag_in_words(stages, case, values)
+    return f"{sag}{force}{change}; forcing {_forcing(values):.3f} Hz."
+
+
+def _draw_deviations(ax: Any, stages: Stages) -> None:
+    nothing = _NOTHING.replace(", so", ",\nso") if _is_almost_zero(stages[0]) else ""
+    plots.deviations(stages[max(stages)], ax, instead=nothing)
 
 
 def _of_last(case: Case, stages: Stages) -> list[Remark]:
@@ -143,7 +212,8 @@ def _of_last(case: Case, stages: Stages) -> list[Remark]:
     return case.remarks(stages[max(stages)])
 
 
-_SAG_CODE = ".displacement(x={x:g}).extreme('displacement_z')  # m, s"
+_SAG_CODE = 'run.displacement(x={x}).extreme("displacement_z")  # m, s'
+_FORCES_CODE = 'rb.plots.car_forces(run, components=["force_z", "moment_y"])\n'
 
 
 # ---- the panels
@@ -156,8 +226,8 @@ def irregularities(case: Case | None = None) -> Panel:
         plots.irregularity(case.track, -40.0, 50.0, ax=axes["track"], deck=case.deck)
         plots.wheels_on_track(case.train, case.track, case.deck.length / 2, axes["track"])
         plots.wheel_paths(case.train, case.track, values["speed"], ax=axes["paths"])
-        forcing = {"forcing": _forcing(values)}
-        plots.frequencies(case.train.vehicles[0], forcing, axes["frequencies"])
+        met = _SPEED_GRID, values["wavelength"], values["speed"], _FREQUENCIES
+        frequency_met(case.train.vehicles[0], *met, axes["frequencies"])
 
     def say(case, result, values):
         modes, forcing = case.train.vehicles[0].modes(), _forcing(values)
@@ -173,22 +243,36 @@ def irregularities(case: Case | None = None) -> Panel:
         draw,
         say,
         compute=lambda case, _: None,
-        code="{speed} / {wavelength}  # Hz, forcing frequency",
-        size=(9.0, 6.0),
+        code="rb.plots.irregularity(case.track, deck=case.deck)\n"
+        "forcing = {speed} / {wavelength}  # Hz\n"
+        'rb.plots.frequencies(case.train.vehicles[0], {{"forcing": forcing}})\n'
+        "forcing",
+        size=(9.0, 6.4),
+        heights=[1.0, 1.0, 2.0],
+        behind={"track": ["vertical"], "paths": ["1 1"], "frequencies": ["met"]},
+        start_name=_start_name(case),
     )
 
 
 def rigid_forces(case: Case | None = None) -> Panel:
     """Panel of notebook 03: one car on a rigid deck.
 
-    Its bounce and pitch, with the steady amplitude, and a wheel's force.
+    Its bounce and pitch, with the steady amplitude, a wheel's force, and the steady bounce over the
+    speed.
     """
 
     def compute(case, progress):
-        return case.compute(progress), _steady_components(case)
+        steady = _steady_components(case.train, case.track, case.options["speed"])
+        return case.compute(progress), steady
 
     def draw(axes, case, result, values):
         run, steady = result
+        modes = run.train.vehicles[0].modes()
+        bounce = dict(zip(modes.names, modes.frequencies_hz, strict=True)).get("car z")
+        marks = {} if bounce is None else {"car bounce": bounce * values["wavelength"]}
+        over_speed = _bounce_over_speed(run.train, case.track)
+        now = values["speed"], steady["force_z"]
+        force_over_speed(_SPEED_GRID, over_speed, now, marks, axes["over_speed"])
         names = ("force_z", "moment_y")
         plots.car_forces(run, axes=[axes[n] for n in names], steady=steady, components=names)
         plots.wheel_force(run, ax=axes["wheel"])
@@ -205,22 +289,35 @@ def rigid_forces(case: Case | None = None) -> Panel:
     return Panel(
         _starting_case(case, {**_RIGID, "train.cars": 1}),
         [_speed(), _wavelength(), _amplitude()],
-        [["force_z"], ["moment_y"], ["wheel"]],
+        [["over_speed", "force_z"], ["wheel", "moment_y"]],
         draw,
         say,
         compute=compute,
         remarks=lambda case, result: case.remarks(result[0]),
-        code="max(abs(run.car_forces(1, static=False)['force_z']))  # N, bounce",
-        size=(9.0, 5.8),
+        code=f"run = case.run()\n{_FORCES_CODE}rb.plots.wheel_force(run)\n"
+        'max(abs(run.car_forces(1, static=False)["force_z"]))  # N, bounce',
+        size=(9.0, 5.0),
         rough=True,
+        behind={
+            "over_speed": ["over speed"],
+            "force_z": ["force_z"],
+            "moment_y": ["moment_y"],
+            "wheel": ["force_z"],
+        },
+        start_name=_start_name(case),
     )
 
 
-def _steady_components(case: Case) -> dict[str, float]:
+def _steady_components(train: AnyTrain, track: Track, speed: float) -> dict[str, float]:
     """Return the steady amplitudes of the first car's five components, N and N m."""
-    forces = steady_forces(case.train.vehicles[0], case.track, case.options["speed"])
-    resultant = np.tensordot(case.train.car(1).condensation("condensed").matrix[0], forces, 2)
-    return dict(zip(CONDENSED, np.abs(resultant).tolist(), strict=True))
+    steady = train.car(1).condensed(steady_forces(train.vehicles[0], track, speed))
+    return {name: float(np.abs(amplitude)) for name, amplitude in steady.items()}
+
+
+@lru_cache(maxsize=2)
+def _bounce_over_speed(train: AnyTrain, track: Track) -> np.ndarray:
+    """Return the steady bounce force of the first car at the speeds of the grid, N."""
+    return np.array([_steady_components(train, track, v)["force_z"] for v in _SPEED_GRID])
 
 
 def deck_modes(case: Case | None = None) -> Panel:
@@ -238,7 +335,7 @@ def deck_modes(case: Case | None = None) -> Panel:
         # Only modes have a ratio: the forcing is no mark of this curve.
         marks = {"the mode": case.deck.frequencies_hz[mode - 1]}
         plots.deck_mode(case.deck, mode, axes["mode"])
-        plots.frequencies(case.deck, forcing, axes["frequencies"], most=60.0)
+        plots.frequencies(case.deck, forcing, axes["frequencies"], most=60.0, least=0.1)
         plots.damping(*coefficients, marks, axes["damping"])
 
     def say(case, coefficients, values):
@@ -267,18 +364,28 @@ def deck_modes(case: Case | None = None) -> Panel:
         draw,
         say,
         compute=compute,
-        code="case.deck.frequencies_hz[{mode} - 1], case.deck.damping_ratios[{mode} - 1]",
+        code="deck = case.deck\nrb.plots.deck_mode(deck, {mode})\n"
+        "rayleigh = rb.rayleigh({damping_ratio}, [{first_frequency}, {second_frequency}])\n"
+        "rb.plots.damping(*rayleigh)\n"
+        "deck.frequencies_hz[{mode} - 1], deck.damping_ratios[{mode} - 1]  # Hz, -",
         size=(9.0, 6.8),
         heights=[1.0, 1.0, 1.3],
+        behind={"damping": ["total"]},
+        start_name=_start_name(case),
     )
 
 
 def deck_response(case: Case | None = None) -> Panel:
-    """Panel of notebook 05: displacement and moment at mid-span under rigid-deck forces."""
+    """Panel of notebook 05: displacement and moment at mid-span under rigid-deck forces.
+
+    Below, the speeds at which cars or waves keep step with the deck.
+    """
 
     def draw(axes, case, run, values):
         plots.displacement(run, case.points[0], axes["displacement"])
         plots.section_force(run, case.points[0], "moment_vertical", axes["moment"])
+        in_step = _speeds_in_step(case.train, case.deck, values["wavelength"])
+        speeds_in_step(in_step, values["speed"], _SPEEDS, axes["in_step"])
 
     def say(case, run, values):
         x = case.points[0]
@@ -293,13 +400,30 @@ def deck_response(case: Case | None = None) -> Panel:
     return Panel(
         _starting_case(case, _RIGID),
         [_speed(), _wavelength(), _amplitude(), _cars(), _loads()],
-        [["displacement"], ["moment"]],
+        [["displacement"], ["moment"], ["in_step"]],
         draw,
         say,
-        code=f"run{_SAG_CODE}",
-        size=(9.0, 5.0),
+        code="run = case.run()\nrb.plots.displacement(run, x={x})\n"
+        f"rb.plots.section_force(run, x={{x}})\n{_SAG_CODE}",
+        size=(9.0, 5.4),
+        heights=[1.0, 1.0, 0.35],
         rough=True,
+        behind={"displacement": ["displacement_z "], "moment": ["moment_vertical "]},
+        start_name=_start_name(case),
     )
+
+
+def _speeds_in_step(train: AnyTrain, deck: Deck, wavelength: float) -> dict[str, list[float]]:
+    """Return the speeds at which cars and waves keep step with the first vertical mode, m/s.
+
+    Those of the cars for 1 to 4 swings from one car to the next (Eq. 5.4 of notebook 05); one car
+    alone has none.
+    """
+    named = zip(deck.mode_names, deck.frequencies_hz, strict=True)
+    first = next((f for name, f in named if name.startswith("vertical")), deck.frequencies_hz[0])
+    spacing = train.car(2).centre - train.car(1).centre if len(train.formation) > 1 else np.nan
+    cars = [float(first * spacing / i) for i in (1, 2, 3, 4)]
+    return {"cars in step": cars, "waves in step": [float(first * wavelength)]}
 
 
 def fixed_point(case: Case | None = None) -> Panel:
@@ -311,7 +435,7 @@ def fixed_point(case: Case | None = None) -> Panel:
         plots.iterations(stages, "force_z", which, force)
         plots.iterations(stages, "displacement_z", which, sag, case.points[0])
         plots.convergence(last, axes["changes"])
-        plots.deviations(last, axes["deviations"])
+        _draw_deviations(axes["deviations"], stages)
 
     def say(case, stages, values):
         return _iteration_in_words(stages, case, values)
@@ -328,10 +452,21 @@ def fixed_point(case: Case | None = None) -> Panel:
         say,
         compute=_by_iteration,
         remarks=_of_last,
-        code=f"run.at({{iteration}}){_SAG_CODE}",
+        code="run = case.run()\nrb.plots.convergence(run)\n"
+        'rb.plots.iterations(run, "force_z", which=(0, {iteration}))\n'
+        f"run = run.at({{iteration}})\n{_SAG_CODE}",
         size=(9.0, 6.4),
         heights=[1.3, 1.0, 1.1],
         rough=True,
+        behind={
+            "force": ["rank 1"],
+            "force minus": ["rank 0"],
+            "displacement": ["rank 1"],
+            "displacement minus": ["rank 0"],
+            "changes": ["changes None"],
+            "deviations": ["rigid None", "previous None"],
+        },
+        start_name=_start_name(case),
     )
 
 
@@ -348,20 +483,25 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
     """
     base = _starting_case(case, _ITERATED)
     reach = int(np.ceil((base.deck.length + base.train.length) / 10)) * 10
+    scales: dict[str, float] = {}  # of the sketch at the start: it never magnifies more
 
-    def draw(axes, case, stages, values):
-        x, run, last = case.points[0], stages[values["iteration"]], stages[max(stages)]
-        now = values["place"] / values["speed"]
-        crossing_at(run, values["place"], axes["train"])
+    def compute(case, progress):
+        return _Story(_by_iteration(case, progress), {})
+
+    def draw(axes, case, story, values):
+        x, stages, now = case.points[0], story.stages, values["place"] / values["speed"]
+        run, (forces, _) = stages[values["iteration"]], story.axles(values["iteration"])
+        if not scales:
+            scales.update(exaggeration=comfortable_exaggeration(run), force=arrow_force(forces))
+        crossing_at(run, values["place"], axes["train"], forces=forces, **scales)
         car_components(run, (axes["forces"], axes["moments"]), now=now)
         plots.displacement(run, x, axes["displacement"])
         mark_instant(axes["displacement"], now)
-        plots.spectrum(run, axes["spectrum"], mark={"forcing": _forcing(values)})
-        plots.deviations(last, axes["deviations"])
+        plots.spectrum(run, axes["spectrum"], mark={"forcing": _forcing(values)}, most=30.0)
+        _draw_deviations(axes["deviations"], stages)
 
-    def say(case, stages, values):
-        words = _iteration_in_words(stages, case, values, plain=True)
-        return words.removesuffix(".") + f"; forcing {_forcing(values):.3f} Hz."
+    def say(case, story, values):
+        return _story_in_words(story, case, values)
 
     place = Control("place", "first axle (m)", (), 0, reach, 1, start=min(100, reach), plays=True)
     return Panel(
@@ -374,11 +514,20 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
         ],
         draw,
         say,
-        compute=_by_iteration,
-        remarks=_of_last,
-        code=f"run.at({{iteration}}){_SAG_CODE}",
+        compute=compute,
+        remarks=lambda case, story: _of_last(case, story.stages),
+        code="run = case.run().at({iteration})\nrb.plots.displacement(run, x={x})\n"
+        f"{_FORCES_CODE}{_SAG_CODE}",
         size=(11.0, 5.6),
-        heights=[0.75, 1.2, 1.0],
+        heights=[1.45, 1.2, 1.0],
         rough=True,
         dpi=dpi,
+        behind={
+            "forces": ["force_z"],
+            "moments": ["moment_y"],
+            "displacement": ["displacement_z "],
+            "spectrum": ["spectrum  heads"],
+            "deviations": ["rigid None", "previous None"],
+        },
+        start_name=_start_name(case),
     )

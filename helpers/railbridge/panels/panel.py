@@ -14,6 +14,7 @@ from base64 import b64encode
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
+from types import MappingProxyType
 from typing import Any
 
 import ipywidgets as widgets
@@ -23,17 +24,21 @@ from matplotlib.figure import Figure
 from .. import errors
 from ..cases.definition import Case
 from ..errors import InputError, Remark
-from ..plots.drawing import FIGURE_WIDTH, keep_limits, reuse_artists
+from ..plots.drawing import FIGURE_WIDTH, keep_limits, leave_behind, reuse_artists
 from ..plots.picture import Picture
 from ..results import Crossing
 from ..settings import default_time_step
+from .code import case_lines
 from .control import Control, change_at, for_case
+from .looks import class_of, looks
+from .standing import stands_here
 
 __all__ = ["DPI", "FALLBACK", "Panel"]
 
 FALLBACK = (
     "Interactive panel: open this notebook in JupyterLab and run this cell to move its sliders."
 )
+CLOSED = "This panel is closed: its cell was run again, and what it made then has replaced it."
 DPI = 100
 REST = 0.3  # s without a move, after which the exact crossing is computed
 ROUGH_STEP = 8e-3  # s, at most, while a control is moved
@@ -71,8 +76,8 @@ class Panel:
         warned of is shown with the exact picture. By default those on a crossing, or on the input
         where the result is something else.
     code : str
-        Last line of *Show this as code*, formatted with the values: the number that the summary
-        gives.
+        Lines of *Show this as code* after those that make the case, formatted with the values: they
+        draw, and the last one is the number that the summary gives.
     size : (float, float)
         Inches.
     heights : sequence of float, optional
@@ -82,6 +87,11 @@ class Panel:
         moved.
     dpi : float
         Dots per inch of the picture; more for a projector.
+    behind : mapping of sequence of str
+        By axes, the names of curves that stay as they are at the start, in grey behind those that
+        move.
+    start_name : str
+        What the legend calls them.
 
     Raises
     ------
@@ -99,11 +109,13 @@ class Panel:
         *,
         compute: Callable[[Case, Progress | None], Any] = Case.compute,
         remarks: Callable[[Case, Any], Sequence[Remark]] | None = None,
-        code: str = "",
+        code: str = "run = case.run()",
         size: tuple[float, float] = (FIGURE_WIDTH, 4.6),
         heights: Sequence[float] | None = None,
         rough: bool = False,
         dpi: float = DPI,
+        behind: Mapping[str, Sequence[str]] = MappingProxyType({}),
+        start_name: str = "at the start",
     ) -> None:
         self.controls = {c.name: for_case(c, case) for c in controls}
         self.start = {c.name: c.first_value(case) for c in self.controls.values()}
@@ -112,11 +124,13 @@ class Panel:
         self.case = self._base = case
         self._draw, self._say, self._compute = draw, say, compute
         self._remarks = remarks or _usual_remarks
-        self._code_line, self._rough = code, rough
+        self._code, self._rough = code, rough
         self._results: OrderedDict[tuple, tuple[Case, Any]] = OrderedDict()
+        self._links: list[widgets.Widget] = []
         self._moves = 0
         self._timers: list[asyncio.TimerHandle] = []
-        self._ignores_sliders = self._will_follow = self._shows_rough = False
+        self._ignores_sliders = self._will_follow = self._shows_rough = self._closed = False
+        self._writes_numbers = False
         self._made_in = _running_loop(), threading.get_ident()
         self.figure = Figure(figsize=size, dpi=dpi, layout="constrained")
         FigureCanvasAgg(self.figure)
@@ -125,9 +139,12 @@ class Panel:
         self._build_widgets()
         values = self.values
         self._draw(self._axes, *self._solve(values), values)
+        for name, curves in behind.items():
+            leave_behind(self._axes[name], curves, start_name)
         reuse_artists(self.figure)
         self._show()
         self._last_values = values
+        stands_here(self)
 
     # ---- widgets
 
@@ -135,10 +152,11 @@ class Panel:
         self.sliders = {n: c.widget(self.start[n]) for n, c in self.controls.items()}
         for slider in self.sliders.values():
             slider.observe(lambda _: self._slider_moved(), names="value")
-        beside = widgets.Layout(flex="0 0 auto", margin="0 0 0 2px")
-        self._asides = {
-            n: widgets.Label(layout=beside) for n, c in self.controls.items() if c.aside
-        }
+        fields = {n: c.field(self.start[n]) for n, c in self.controls.items()}
+        self.fields = {n: field for n, field in fields.items() if field is not None}
+        for name, field in self.fields.items():
+            field.observe(lambda change, name=name: self._typed(name, change.new), names="value")
+        self._asides = {n: widgets.Label() for n, c in self.controls.items() if c.aside}
         # As a data URL: from a blob's URL, which the widget would make of plain bytes, a browser
         # shows it 15 ms later.
         self.image = widgets.Image(format="url", layout=widgets.Layout(width="100%"))
@@ -150,7 +168,7 @@ class Panel:
         self.code_button = _button("Show this as code", tooltip)
         self.code_button.on_click(lambda _: self._show_or_hide_code())
         layout = widgets.Layout(width="100%", max_width="900px", display="none")
-        self.code_area = widgets.Textarea(rows=14, layout=layout)
+        self.code_area = widgets.Textarea(layout=layout)
         self.widget = self._arranged()
         for widget, name in (
             (self.image, "picture"),
@@ -162,37 +180,29 @@ class Panel:
             widget.add_class(f"rb-{name}")
 
     def _arranged(self) -> widgets.Widget:
-        """Return everything in its place: controls beside the picture or, if narrow, above it."""
-        row = widgets.Layout(
-            flex="1 1 28em", max_width="40em", flex_flow="row wrap", align_items="center"
-        )
-        rows = [widgets.HBox(self._row(name), layout=row) for name in self.controls]
-        wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="0 1em")
-        controls = widgets.HBox(rows, layout=wrapped)
-        wrapped = widgets.Layout(flex_flow="row wrap")
-        buttons = widgets.HBox([self.paper_button, self.code_button], layout=wrapped)
-        side_layout = widgets.Layout(flex="1 1 24em", min_width="0")
-        side = widgets.VBox([controls, buttons], layout=side_layout)
-        width = self.figure.get_figwidth() * DPI
-        main_layout = widgets.Layout(
-            flex=f"6 1 {0.82 * width:.0f}px", min_width="0", max_width=f"{width:.0f}px"
-        )
-        main = widgets.VBox(
-            [self.image, self.words, self.remarks, self.trouble], layout=main_layout
-        )
-        side.add_class("rb-side")
-        main.add_class("rb-main")
-        wrapped = widgets.Layout(flex_flow="row wrap", grid_gap="4px 1em")
-        return widgets.VBox([widgets.HBox([side, main], layout=wrapped), self.code_area])
+        """Return everything in its place; `looks` says where that is in a page."""
+        controls = _box("controls", [_box("control", self._row(name)) for name in self.controls])
+        buttons = _box("buttons", [self.paper_button, self.code_button])
+        side = _box("side", [controls, buttons, self.trouble, self.code_area], widgets.VBox)
+        words = [self.words, self.remarks]
+        main = _box("main", [self.image, *words], widgets.VBox)
+        both = _box("both", [side, main])
+        size = tuple(DPI * self.figure.get_size_inches())
+        both.add_class(class_of(*size))
+        return widgets.VBox([both, looks(*size)])
 
     def _row(self, name: str) -> list[widgets.Widget]:
         """Return a control and what stands beside it."""
         control, slider = self.controls[name], self.sliders[name]
         row = [slider]
+        if name in self.fields:
+            row.append(self.fields[name])
         if name in self._asides:
             row.append(self._asides[name])
         if control.plays:
-            row.append(control.player(slider))
+            player, link = control.player(slider)
+            row.append(player)
+            self._links.append(link)
         return row
 
     # ---- what users ask
@@ -204,11 +214,9 @@ class Panel:
 
     @property
     def code(self) -> str:
-        """Python lines that compute the present case, and the number that the summary gives."""
-        code = self.case.code()
-        if self._code_line:
-            code += self._code_line.format(**self.values, x=self.case.points[0]) + "\n"
-        return code
+        """Python lines that compute the present case, draw it, and give the summary's number."""
+        lines = self._code.format(**self.values, x=self.case.points[0])
+        return case_lines(self.case, self.controls.values()) + f"{lines}\n"
 
     def set(self, **values: Any) -> Panel:
         """Move controls, as by hand: the picture and the summary follow, at once the exact ones.
@@ -228,7 +236,10 @@ class Panel:
         InputError
             An unknown control or a value out of range, before anything moves; or what the case says
             to the values.
+        RuntimeError
+            The panel is closed.
         """
+        self._refuse_if_closed()
         for name in values:
             errors.choice("control", name, self.controls)
         self._move({n: self.controls[n].check(v) for n, v in values.items()}, self._show)
@@ -238,7 +249,30 @@ class Panel:
 
     def reset(self) -> Panel:
         """Put all controls back to where they started, as *Paper case* does."""
+        self._refuse_if_closed()
         return self.set(**self.start)
+
+    def close(self) -> None:
+        """Free all that the panel holds: its widgets, its picture, its results and its case.
+
+        A panel whose cell is run again closes by itself, where no other cell shows it. What the
+        notebook keeps of it in ``Out`` is then empty.
+        """
+        if self._closed:
+            return
+        self._stop()
+        for widget in _with_parts([self.widget, *self._links]):
+            widget.unobserve_all()
+            widget.close()
+        vars(self).clear()
+        self._closed = True
+
+    def _refuse_if_closed(self) -> None:
+        if self._closed:
+            raise RuntimeError(CLOSED)
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(CLOSED if vars(self).get("_closed") else f"a panel has no {name}")
 
     # ---- following a hand
 
@@ -266,10 +300,34 @@ class Panel:
             self._will_follow = True
             loop.call_soon_threadsafe(self._follow)
 
+    def _typed(self, name: str, text: str) -> None:
+        """Move a slider to the number typed beside it, or refuse it in words."""
+        if self._writes_numbers:
+            return
+        control, slider = self.controls[name], self.sliders[name]
+        try:
+            displayed = control.displayed_value(control.read(text))
+        except InputError as error:
+            self._stop()
+            self._show_error(error)
+            return
+        if displayed == slider.value:
+            self._slider_moved()
+        slider.value = displayed
+
+    def _write_numbers(self, values: Mapping[str, Any]) -> None:
+        self._writes_numbers = True
+        for name, field in self.fields.items():
+            field.value = self.controls[name].written(values[name])
+        self._writes_numbers = False
+
     def _follow(self) -> None:
         """Show what the controls say now: roughly if that is quicker, and exactly at rest."""
         self._will_follow = False
+        if self._closed:
+            return None
         loop, values = _running_loop(), self.values
+        self._write_numbers(values)
         before, self._last_values = self._last_values, values
         # Without a kernel whose messages have to be answered there is nobody to keep waiting.
         if loop is None or not self._rough or self._key(values) in self._results:
@@ -304,7 +362,7 @@ class Panel:
         move = self._moves
 
         def stop_if_stale(_: str = "") -> None:
-            if move != self._moves:
+            if self._closed or move != self._moves:
                 raise _StaleError
 
         def work() -> None:
@@ -316,7 +374,7 @@ class Panel:
 
         def done(task: asyncio.Future) -> None:
             stale = task.cancelled() or isinstance(task.exception(), _StaleError)
-            if not (rough or stale) and move == self._moves:
+            if not (rough or stale or self._closed) and move == self._moves:
                 self._show()  # from the results kept; what went wrong goes wrong again, and is said
 
         loop.run_in_executor(None, work).add_done_callback(done)
@@ -347,12 +405,16 @@ class Panel:
                 self._results.popitem(last=False)
         return solved
 
-    def _show(self, rough: bool = False) -> None:
-        """Compute, draw, say; an error is said instead, and the picture stays as it was."""
+    def _stop(self) -> None:
+        """Give up what is being computed for where the controls stood, and what is to come."""
         self._moves += 1
         for timer in self._timers:
             timer.cancel()
         self._timers = []
+
+    def _show(self, rough: bool = False) -> None:
+        """Compute, draw, say; an error is said instead, and the picture stays as it was."""
+        self._stop()
         values = self.values
         try:
             case, result = self._solve(values, rough)
@@ -366,6 +428,7 @@ class Panel:
             self.case, self.summary, self.error = case, summary, None
             self._show_case(rough)
             self.remarks.value = _as_html(remarks)
+        self._write_numbers(values)
         for name, label in self._asides.items():
             label.value = self.controls[name].aside(values[name])
 
@@ -380,7 +443,7 @@ class Panel:
         self._write_summary(rough, note)
         self.trouble.value = ""
         if self.code_area.layout.display != "none":
-            self.code_area.value = self.code
+            self._write_code()
 
     def _show_error(self, error: Exception) -> None:
         self.error = error
@@ -398,12 +461,20 @@ class Panel:
 
     def _show_or_hide_code(self) -> None:
         hidden = self.code_area.layout.display == "none"
-        self.code_area.value = self.code
+        self._write_code()
         self.code_area.layout.display = "flex" if hidden else "none"
         self.code_button.description = "Hide the code" if hidden else "Show this as code"
 
+    def _write_code(self) -> None:
+        """Write the code, and make room for all of its lines."""
+        code = self.code
+        self.code_area.value, self.code_area.rows = code, len(code.splitlines())
+
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
         """Show the widget, or a sentence where there are no widgets."""
+        if self._closed:
+            return {"text/plain": CLOSED}
+        stands_here(self)
         bundle = self.widget._repr_mimebundle_(include=include, exclude=exclude) or {}
         return {**bundle, "text/plain": FALLBACK}
 
@@ -436,6 +507,29 @@ def _as_html(remarks: Sequence[Remark]) -> str:
     rest = [f"And {more} more; see the remarks of the summary."] if more > 0 else []
     words = "<br>".join(lines[:REMARKS_SHOWN] + rest)
     return f'<div role="note" style="{_NOTE}">{words}</div>'
+
+
+def _with_parts(roots: Sequence[widgets.Widget]) -> list[widgets.Widget]:
+    """Return widgets with all that belongs to them: what stands in them, layouts, styles."""
+    found: dict[widgets.Widget, None] = {}
+    waiting = list(roots)
+    while waiting:
+        widget = waiting.pop()
+        if widget not in found:
+            found[widget] = None
+            values = [getattr(widget, key) for key in widget.keys]
+            values += [part for value in values if isinstance(value, tuple) for part in value]
+            waiting += [value for value in values if isinstance(value, widgets.Widget)]
+    return list(found)
+
+
+def _box(
+    name: str, parts: Sequence[widgets.Widget], kind: type[widgets.Box] = widgets.HBox
+) -> widgets.Box:
+    """Put parts into a box of the class ``rb-`` and its name."""
+    box = kind(parts)
+    box.add_class(f"rb-{name}")
+    return box
 
 
 def _button(label: str, tooltip: str) -> widgets.Button:

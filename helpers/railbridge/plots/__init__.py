@@ -1,7 +1,7 @@
 """One function per figure: a result and optional axes in, the axes out. Nothing is computed here.
 
 Without axes a function makes a figure of notebook width. It never shows it and changes no settings,
-so figures can be composed: give the axes of ``plt.subplots``; the two that move return an
+so figures can be composed: give the axes of ``plt.subplots``; those that move return an
 `Animation` instead. Colours and units are those of `style.QUANTITY_STYLES`: kN, kN m and mm.
 ``plt.style.use(rb.plots.STYLE)`` gives a notebook's own drawings the same colours.
 """
@@ -9,7 +9,12 @@ so figures can be composed: give the axes of ``plt.subplots``; the two that move
 from .deck import damping, deck_mode, deck_modes, influence_line
 from .diagrams import diagram
 from .forces import car_forces, spectra, spectrum, wheel_force, wheel_forces
-from .motion import animate_crossing, animate_vehicle_mode
+from .motion import (
+    animate_car_on_waves,
+    animate_crossing,
+    animate_rigid_and_flexible,
+    animate_vehicle_mode,
+)
 from .response import (
     acceleration,
     convergence,
@@ -28,10 +33,11 @@ from .style import STYLE as STYLE
 from .track import frequencies, irregularity, notch, slope, wheel_paths, wheels_on_track
 
 __all__ = [
-    "acceleration", "animate_crossing", "animate_vehicle_mode", "assurance", "box_section",
-    "car_forces", "convergence", "damping", "deck_mode", "deck_modes", "deviations", "diagram",
-    "displacement", "frequencies", "influence_line", "irregularity", "iterations", "load_modes",
-    "notch", "reactions", "section_force", "shell_mode", "shell_modes", "slope", "spectra",
-    "spectrum", "train_on_deck", "vehicle", "vehicle_mode", "velocity", "wheel_force",
-    "wheel_forces", "wheel_paths", "wheels_on_track",
+    "acceleration", "animate_car_on_waves", "animate_crossing", "animate_rigid_and_flexible",
+    "animate_vehicle_mode", "assurance", "box_section", "car_forces", "convergence", "damping",
+    "deck_mode", "deck_modes", "deviations", "diagram", "displacement", "frequencies",
+    "influence_line", "irregularity", "iterations", "load_modes", "notch", "reactions",
+    "section_force", "shell_mode", "shell_modes", "slope", "spectra", "spectrum", "train_on_deck",
+    "vehicle", "vehicle_mode", "velocity", "wheel_force", "wheel_forces", "wheel_paths",
+    "wheels_on_track",
 ]  # fmt: skip

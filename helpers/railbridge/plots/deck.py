@@ -8,8 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .. import errors
-from ..decks import Deck, rayleigh_ratio
-from ..errors import InputError
+from ..decks import Deck, load_of, rayleigh_ratio
 from .drawing import (
     PLACE_LABEL,
     axes_or_new,
@@ -148,21 +147,11 @@ def influence_line(deck: Deck, quantity: str, x: float, ax: Axes | None = None) 
     InputError
         A quantity that the deck cannot recover.
     """
-    reaction = quantity in ("force_y", "force_z", "moment_x")
-    line = deck.recovery.reaction(quantity, x) if reaction else deck.recovery.section(quantity, x)
-    if line is None and deck.recovery.lacks:
-        raise InputError("deck", deck.name, deck.recovery.lacks)
-    if line is None:
-        raise InputError("quantity", quantity, "the deck has no such stiffness or bearing there")
-    ax = axes_or_new(ax)
-    load = "y"
-    if quantity.endswith(("_z", "vertical")):
-        load = "z"
-    elif quantity.endswith(("_x", "torsion")):
-        load = "roll"
+    reaction, load = quantity in ("force_y", "force_z", "moment_x"), load_of(quantity)
     jump = [max(x - 1e-6, 0.0), min(x + 1e-6, deck.length)]
     along = np.unique(np.concatenate([np.linspace(0.0, deck.length, 601), jump]))
-    values = line.influence(along)[:, 0, ("y", "z", "roll").index(load)]
+    values = deck.influence(quantity, at=x, places=along)
+    ax = axes_or_new(ax)
     style = style_of(f"reaction_{quantity[-1]}" if reaction else quantity)
     unit, factor = _influence_unit(style.unit, load)
     curve(ax, "axis", [0.0, deck.length], [0.0, 0.0], color=GREY, lw=0.8)

@@ -16,13 +16,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from ..errors import InputError
-from .style import SHADE, style_of
+from .style import GREY, SHADE, style_of
 
 __all__ = [
     "FIGURE_WIDTH", "PLACE_LABEL", "TIME_LABEL", "axes_or_new", "axes_or_new_grid", "curve",
-    "keep_limits", "label_axes", "log_frequencies", "note", "numbers_up_to", "quantity_curve",
-    "reuse_artists", "reuses_artists", "round_down", "round_up", "shade", "small_multiples",
-    "vertical_lines",
+    "keep_limits", "label_axes", "leave_behind", "log_frequencies", "note", "numbers_up_to",
+    "quantity_curve", "reuse_artists", "reuses_artists", "round_down", "round_up", "shade",
+    "small_multiples", "vertical_lines",
 ]  # fmt: skip
 
 FIGURE_WIDTH = 9.0  # inch, 900 px in a notebook
@@ -151,6 +151,18 @@ def quantity_curve(
     curve(ax, name or quantity, x, style.factor * np.asarray(y), label=label, **line)
 
 
+def leave_behind(ax: Axes, names: Sequence[str], label: str) -> None:
+    """Draw some curves once more as they stand now, in grey behind all others; those stay.
+
+    What moves later is seen against them, and an axes that reuses its artists never ends before
+    them: its scales grow, but do not become finer than they were.
+    """
+    for name, line in [(line.get_gid(), line) for line in ax.lines if line.get_gid() in names]:
+        look = {"ls": line.get_linestyle(), "marker": line.get_marker(), "color": GREY, "lw": 1.2}
+        look |= {"ms": line.get_markersize(), "label": label if name == names[0] else None}
+        curve(ax, f"{name} left behind", *line.get_data(), zorder=1.5, **look)
+
+
 def shade(ax: Axes, name: str, start: float, stop: float, label: str | None = None) -> None:
     """Shade a stretch of the horizontal axis."""
     artist = _artist_named(ax, name)
@@ -201,12 +213,11 @@ def label_axes(
 
     An axes that reuses its artists is fitted to its data, too, unless `fit` is false.
     """
-    if y is not None and len(y) > 12 * ax.get_position().height * ax.figure.get_figheight():
-        y = y.replace(" (", "\n(")
     if x is not None and ax.get_xlabel() != x:
         ax.set_xlabel(x)
-    if y is not None and ax.get_ylabel() != y:
-        ax.set_ylabel(y)
+    if y is not None and ax.get_ylabel().replace("\n", " ") != y:
+        long = len(y) > 12 * ax.get_position().height * ax.figure.get_figheight()
+        ax.set_ylabel(y.replace(" (", "\n(") if long else y)
     if title is not None:
         ax.set_title(title, loc="left", fontsize="medium")
     if legend:
@@ -229,12 +240,16 @@ def _write_legend(ax: Axes) -> None:
         for text, label in zip(texts, labels, strict=True):
             text.set_text(label)
         return
-    room = 11.5 * ax.get_position().width * ax.figure.get_figwidth()  # letters
-    columns = int(np.clip(room / (max(map(len, labels)) + 7), 1, len(labels)))
-    if sum(map(len, labels)) + 6 * len(labels) <= room:
-        columns = len(labels)
+    room = 15.5 * ax.get_position().width * ax.figure.get_figwidth()  # letters
+    columns = max(n for n in range(1, len(labels) + 1) if n == 1 or _legend_width(labels, n) < room)
     above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1}
-    ax.legend(ncols=columns, frameon=False, fontsize="small", handlelength=2.6, **above)
+    above |= {"handlelength": 2.4, "columnspacing": 1.4}
+    ax.legend(ncols=columns, frameon=False, fontsize="small", **above)
+
+
+def _legend_width(labels: Sequence[str], columns: int) -> float:
+    """Return how wide a legend is about, in letters; a line and its gaps count as eight."""
+    return sum(8 + max(map(len, part)) for part in np.array_split(labels, columns))
 
 
 def log_frequencies(ax: Axes) -> None:

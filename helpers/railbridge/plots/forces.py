@@ -187,11 +187,12 @@ def spectrum(
     ax: Axes | None = None,
     label: str | None = None,
     mark: Mapping[str, float] | None = None,
+    most: float | None = None,
     **line,
 ) -> Axes:
     """Plot an amplitude spectrum, one stem a line.
 
-    `mark` names frequencies (Hz) for vertical lines.
+    `mark` names frequencies (Hz) for vertical lines; `most` ends the axis (Hz).
     """
     ax = axes_or_new(ax)
     is_run = isinstance(run_or_spectrum, Crossing)
@@ -207,7 +208,7 @@ def spectrum(
     vertical_lines(ax, mark)
     label_axes(ax, "frequency (Hz)", f"amplitude ({unit})")
     ax.set_ylim(bottom=0.0)
-    ax.set_xlim(left=0.0)
+    ax.set_xlim(0.0, most)
     return ax
 
 

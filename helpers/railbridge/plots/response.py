@@ -164,18 +164,26 @@ def convergence(run_or_dict: Crossing | Mapping[str, Crossing], ax: Axes | None 
     return _label_iterations(ax, "change of the wheel forces (-)", last)
 
 
-def deviations(run_or_dict: Crossing | Mapping[str, Crossing], ax: Axes | None = None) -> Axes:
-    """Plot Eq. 3 for each iteration, from the rigid deck and from the one before (Table 3)."""
+def deviations(
+    run_or_dict: Crossing | Mapping[str, Crossing], ax: Axes | None = None, instead: str = ""
+) -> Axes:
+    """Plot Eq. 3 for each iteration, from the rigid deck and from the one before (Table 3).
+
+    `instead` is written in place of the curves, where they would say nothing.
+    """
     ax, runs = axes_or_new(ax), _by_name(run_or_dict)
     if not reuses_artists(ax):
         curve(ax, "zero", [0.5, 200.0], [0.0, 0.0], color=GREY, lw=0.8, scalex=False)
+    ground = {"fc": "white", "ec": "none", "pad": 1.0, "alpha": 0.85}
+    note(ax, "instead", instead, 0.5, 0.5, ha="center", va="center", bbox=ground)
+    shown = np.nan if instead else 1.0
     for name, run, colour in runs:
         numbers, before = np.arange(1, run.iterations + 1), "" if name is None else f"{name}, "
         line = {"label": f"{before}from rigid", "color": colour, "marker": "o", "ms": 5}
-        curve(ax, f"rigid {name}", numbers, run.deviations.from_rigid, **line)
+        curve(ax, f"rigid {name}", numbers, shown * run.deviations.from_rigid, **line)
         line = {"label": f"{before}from previous", "color": colour, "marker": "s", "ms": 4}
         line |= {"ls": "--", "mfc": "white"}
-        curve(ax, f"previous {name}", numbers, run.deviations.from_previous, **line)
+        curve(ax, f"previous {name}", numbers, shown * run.deviations.from_previous, **line)
     last = max((run.iterations for _, run, _ in runs), default=1)
     return _label_iterations(ax, "deviation, Eq. 3 (%)", max(last, 1))
 

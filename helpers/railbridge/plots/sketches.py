@@ -98,7 +98,7 @@ def vehicle_mode(
         _draw_bodies(ax, view, outline, motion, edge=_MOVED, fill="#0072B218")
         _draw_springs(ax, view, outline, motion, edge=_MOVED, dampers=False)
     _frame_views(axes, outline, below=0.3, room=0.9 if long else 0.5)
-    title = f"mode {mode}: {modes.frequencies_hz[mode - 1]:.4g} Hz, {modes.names[mode - 1]}"
+    title = f"mode {mode}: {modes.frequencies_hz[mode - 1]:.4g} Hz"
     words = fill(what_moves(vehicle, modes, mode), 78 if long else 36)
     axes[0].set_title(literal(f"{title}\n{words}"), loc="left", fontsize="medium")
     return np.array(axes, dtype=object)

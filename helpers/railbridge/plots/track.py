@@ -28,7 +28,10 @@ from .drawing import (
 )
 from .style import RUN_COLOURS, literal, mode_in_words, other_shade, style_of
 
-__all__ = ["frequencies", "irregularity", "notch", "slope", "wheel_paths", "wheels_on_track"]
+__all__ = [
+    "frequencies", "grouped_frequencies", "irregularity", "notch", "slope", "wheel_paths",
+    "wheels_on_track",
+]  # fmt: skip
 
 
 def irregularity(
@@ -167,6 +170,7 @@ def frequencies(
     mark: Mapping[str, float] | None = None,
     ax: Axes | None = None,
     most: float | None = None,
+    least: float | None = None,
 ) -> Axes:
     """Plot natural frequencies as ticks on an axis, with marks such as a forcing frequency.
 
@@ -176,37 +180,47 @@ def frequencies(
     mark : mapping of float, optional
         Frequencies to mark, Hz, by name.
     ax : Axes, optional
-    most : float, optional
-        End of the axis, Hz.
+    most, least : float, optional
+        Ends of the axis, Hz.
     """
     ax, marks = axes_or_new(ax, 2.4), dict(mark or {})
-    values, names = _named_frequencies(source)
+    values, _ = _named_frequencies(source)
     most = most or 1.15 * float(values[-1])
     below = values[values <= most]
     heights = np.tile([0.0, 1.0, np.nan], len(below))
     curve(ax, "natural", np.repeat(below, 3), heights, color=style_of("displacement_z").colour)
-    groups: list[tuple[float, list[str]]] = []
-    for f, name in zip(values, names, strict=True):
-        if f <= most and groups and f < 1.06 * groups[-1][0]:
-            groups[-1][1].append(name)
-        elif f <= most:
-            groups.append((f, [name]))
     upright = {"rotation": 90, "ha": "right", "size": 8.5, "color": "k"}
-    for i, (f, near) in enumerate(groups):
-        text = " \n".join(list(dict.fromkeys(near))[:2]) + " "
+    for i, (f, near) in enumerate(grouped_frequencies(source, most)):
+        text = " \n".join(near[:2]) + " "
         note(ax, f"name {i}", text, f, 0.96, data_x=True, **upright)
     for name, f in marks.items():
         line = {"color": style_of("force_z").colour, "lw": 2.5, "label": f"{name} {f:.4g} Hz"}
         curve(ax, f"line at {name}", [f, f], [0.0, 1.0], **line)
-    low = 0.75 * min([float(values[0]), *marks.values()])
+    low = least or 0.75 * min([float(values[0]), *marks.values()])
     high = max([most, *(1.1 * f for f in marks.values())])
     if reuses_artists(ax):
-        low, high = 1 / round_up(1 / low), round_up(high)
+        low, high = least or 1 / round_up(1 / low), round_up(high)
     log_frequencies(ax)
     label_axes(ax, "frequency (Hz)")
     ax.set(xlim=(low, high), ylim=(0.0, 1.0), yticks=[])
     ax.spines["left"].set_visible(False)
     return ax
+
+
+def grouped_frequencies(
+    source: Vehicle | Deck, most: float = np.inf
+) -> list[tuple[float, list[str]]]:
+    """Return natural frequencies up to `most` (Hz), ascending, those that lie close as one.
+
+    Each with its names, of which none stands twice.
+    """
+    groups: list[tuple[float, list[str]]] = []
+    for f, name in zip(*_named_frequencies(source), strict=True):
+        if groups and f < 1.06 * groups[-1][0] and f <= most:
+            groups[-1][1].append(name)
+        elif f <= most:
+            groups.append((f, [name]))
+    return [(f, list(dict.fromkeys(names))) for f, names in groups]
 
 
 def _named_frequencies(source: Vehicle | Deck) -> tuple[np.ndarray, tuple[str, ...]]:

@@ -3,5 +3,9 @@
 from .crossings import animate_crossing
 from .modes import animate_vehicle_mode
 from .player import Animation
+from .riding import animate_car_on_waves, animate_rigid_and_flexible
 
-__all__ = ["Animation", "animate_crossing", "animate_vehicle_mode"]
+__all__ = [
+    "Animation", "animate_car_on_waves", "animate_crossing", "animate_rigid_and_flexible",
+    "animate_vehicle_mode",
+]  # fmt: skip

@@ -18,11 +18,13 @@ from .player import (
     Drawing,
     attributes,
     element,
+    pace_in_words,
     page,
     points_text,
     rounded,
     script,
 )
+from .stage import round_ticks
 
 __all__ = ["animate_crossing"]
 
@@ -97,7 +99,7 @@ def animate_crossing(
         "the waves of the rail are not drawn, and the cars are drawn level: their own motion is "
         "not shown. A bar below an axle is its force on the deck, "
         f"{static_load / 1e3:.4g} kN at rest. At x = {x:g} m the largest displacement is "
-        f"{1e3 * sag:.2f} mm at {moment:.2f} s. {_pace_in_words(stop / data['seconds'])}"
+        f"{1e3 * sag:.2f} mm at {moment:.2f} s. {pace_in_words(stop / data['seconds'])}"
     )
     title = f"{_train_in_words(run)} over {deck.name} at {speed:g} m/s, displacement {factor}"
     return Animation(title, frames, page(drawing, title, words, data, script("crossings.js")))
@@ -213,11 +215,11 @@ def _draw_history(drawing: Drawing, data: dict, x: float, time: np.ndarray) -> N
     curve = np.column_stack([across(time), down(value)])
     data["dot"] = [rounded(point) for point in curve]
     drawing.add("line", x1=left, x2=right, y1=down(0.0), y2=down(0.0), stroke=GREY)
-    for tick in _ticks(low, high, 4):
+    for tick in round_ticks(low, high, 4):
         y = down(tick)
         drawing.add("line", x1=left - 4, x2=left, y1=y, y2=y, stroke=INK)
         drawing.write(left - 7, y + 4, f"{tick:g}", anchor="end")
-    for tick in _ticks(0.0, time[-1], 8):
+    for tick in round_ticks(0.0, time[-1], 8):
         drawing.add(
             "line", x1=across(tick), x2=across(tick), y1=bottom + 4, y2=bottom + 8, stroke=INK
         )
@@ -234,23 +236,7 @@ def _draw_history(drawing: Drawing, data: dict, x: float, time: np.ndarray) -> N
     drawing.add("circle", cx=dot_x, cy=dot_y, r=5, **dot)
 
 
-def _ticks(low: float, high: float, most: int) -> np.ndarray:
-    """Return round numbers from low to high, at most so many steps."""
-    steps = (s * 10.0**p for p in range(-12, 13) for s in (1, 2, 5))
-    step = next(step for step in steps if (high - low) / step <= most)
-    first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
-    return step * np.arange(first, last + 1) + 0.0
-
-
 # ---- words
-
-
-def _pace_in_words(ratio: float) -> str:
-    if 0.99 < ratio < 1.01:
-        return "It plays at true speed."
-    if ratio > 1.0:
-        return f"It plays {ratio:.2g} times too fast."
-    return f"It plays {1 / ratio:.2g} times too slowly."
 
 
 def _train_in_words(run: Crossing) -> str:

@@ -36,7 +36,7 @@ __DRAW__
   };
   const tick = now => {
     if (before === null || !svg.isConnected) return;
-    at += (now - before) / 1000 * last / D.seconds;
+    at += Math.max(0, now - before) / 1000 * last / D.seconds;  // a frame may have begun before the click
     before = now;
     if (at >= last) { if (D.loop) at %= last; else { at = last; before = null; } }
     show();

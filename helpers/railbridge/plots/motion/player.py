@@ -11,7 +11,7 @@ import hashlib
 import json
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
 from pathlib import Path
@@ -21,8 +21,8 @@ import numpy as np
 from ...errors import InputError
 
 __all__ = [
-    "FEWEST", "INK", "MOST", "WIDTH", "Animation", "Drawing", "attributes", "element", "page",
-    "points_text", "rounded", "script",
+    "FEWEST", "INK", "MOST", "WIDTH", "Animation", "Drawing", "attributes", "element",
+    "pace_in_words", "page", "points_text", "rounded", "script",
 ]  # fmt: skip
 
 WIDTH = 900  # px, as the other figures
@@ -47,7 +47,7 @@ class Animation:
 
     title: str
     frames: int
-    html: str = field(repr=False)
+    html: str
 
     def __repr__(self) -> str:
         return f"Animation: {self.title}, {self.frames} frames"
@@ -129,6 +129,15 @@ def rounded(values: np.ndarray, digits: int = 1) -> list:
     """Return numbers for the page, with few digits."""
     # Adding zero turns -0.0 into 0.0: what is stored does not depend on the sign of nothing.
     return (np.round(np.asarray(values, dtype=float), digits) + 0.0).tolist()
+
+
+def pace_in_words(ratio: float) -> str:
+    """Return how fast it plays, from seconds shown in a second."""
+    if 0.99 < ratio < 1.01:
+        return "It plays at true speed."
+    if ratio > 1.0:
+        return f"It plays {ratio:.2g} times too fast."
+    return f"It plays {1 / ratio:.2g} times too slowly."
 
 
 def script(name: str) -> str:

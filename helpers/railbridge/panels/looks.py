@@ -1,0 +1,53 @@
+"""How a panel is laid out in a page, and the names that its parts have for screen readers.
+
+Widgets cannot be given either from Python: a handle of a slider has no name, and a width cannot
+depend on the page. The style that does both travels with the panel, in a widget that shows nothing;
+the script runs when a page has loaded that style.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from html import escape
+from importlib.resources import files
+
+import ipywidgets as widgets
+
+__all__ = ["class_of", "looks"]
+
+
+def class_of(width: float, height: float) -> str:
+    """Return the class of what is laid out for a picture of this width and height, px."""
+    return f"rb-by-{_name(width, height)}"
+
+
+def looks(width: float, height: float) -> widgets.HTML:
+    """Return the widget that lays out a panel with a picture of this width and height, px.
+
+    It stands in the panel, an element of class ``rb-panel``.
+    """
+    style = f'<style onload="{escape(_text("panel.js"))}">{_style(width, height)}</style>'
+    return widgets.HTML(style, layout=widgets.Layout(display="none"))
+
+
+def _style(width: float, height: float) -> str:
+    aspect = width / height
+    # em, from where the picture is larger beside the controls than below them, on a screen 768 px
+    # high: there it may be 34 em high, and the controls beside it are 20 em wide.
+    beside = 34.0 * aspect + 21.0
+    style = _text("panel.css")
+    given = {"NAME": _name(width, height), "WIDTH": f"{width:.0f}", "ASPECT": f"{aspect:.3f}"}
+    given |= {"BESIDE": f"{beside:.1f}", "ROOMY": f"{beside + 8.0:.1f}"}
+    for key, value in given.items():
+        style = style.replace(f"__{key}__", value)
+    return style
+
+
+def _name(width: float, height: float) -> str:
+    return f"{width:.0f}-{height:.0f}"
+
+
+@cache
+def _text(name: str) -> str:
+    """Return the text of a file that stands beside this one."""
+    return files(__package__).joinpath(name).read_text(encoding="utf-8")
