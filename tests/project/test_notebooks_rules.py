@@ -52,10 +52,10 @@ class Page:
 # The pages that are no lessons of the usual kind: the door, the comparison, the long check, and the
 # one with two programs.
 PAGES = {
-    # One exercise, to try how they answer.
+    # How pages and panels are run, and one exercise, to try how they answer.
     "00": Page(
         (GOALS, EXPLORE, EXERCISES, FOUND, REFERENCES),
-        (200, 1500),
+        (200, 1600),
         (5, 80),
         ("try",),
         ("You need", "Time"),
