@@ -46,7 +46,7 @@ def test_a_student_gets_no_outputs_and_no_solutions(path):
     assert "Solution" not in text(made) and "BEGIN SOLUTION" not in text(made)
     assert not any(cell.get("outputs") for cell in made["cells"])
     assert all(cell.get("execution_count") is None for cell in made["cells"])
-    assert "<summary>Hint" in text(made), "hints stay"
+    assert ("<summary>Hint" in text(made)) is ("### Exercise" in text(made)), "hints stay"
 
 
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
@@ -100,7 +100,8 @@ def test_nbgrader_finds_where_answers_and_marks_stand(path, make):
         assert each["solution"] is not each["locked"]
         assert ("points" in each) is each["grade"]
     assert not any(each["grade"] for each in known if each["grade_id"].endswith("guess"))
-    assert any(each["grade"] for each in known)
+    worth = [exercise_of(cell).marks for cell in made["cells"] if exercise_of(cell)]
+    assert sum(each.get("points", 0) for each in known) == sum(worth)
 
 
 def test_the_words_of_a_solution_are_comments_of_its_code():

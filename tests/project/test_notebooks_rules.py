@@ -52,10 +52,18 @@ class Page:
 # The pages that are no lessons of the usual kind: the door, the comparison, the long check, and the
 # one with two programs.
 PAGES = {
-    "00": Page((GOALS, EXPLORE, FOUND, REFERENCES), (200, 1200), (5, 80), (), ("You need", "Time")),
+    # How pages and panels are run, and one exercise, to try how they answer.
+    "00": Page(
+        (GOALS, EXPLORE, EXERCISES, FOUND, REFERENCES),
+        (200, 1600),
+        (5, 80),
+        ("try",),
+        ("You need", "Time"),
+    ),
     # The loop twice: once in fifteen lines without the suite.
     "06": Page(words=(500, 2000), code_lines=(40, 180)),
-    "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3000), (20, 260), (), ("You need", "Time")),
+    # Every table and result of the paper, each with its picture and its layout.
+    "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3100), (20, 320), (), ("You need", "Time")),
     "09": Page((GOALS, CHECK, EXERCISES, FOUND, REFERENCES, SYMBOLS), (500, 3000), (20, 280)),
     # The other program that the page needs is written out on it.
     "12": Page(code_lines=(40, 170)),
