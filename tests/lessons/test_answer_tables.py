@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 
 from railbridge.errors import InputError
@@ -58,8 +59,9 @@ def test_a_choice_is_a_letter():
     assert asked.reply("a").says == "not a: the spring is soft."
     assert asked.reply("c").says == "not right."
     assert not asked.reply(...).given and not asked.reply("").given
-    for value in ("d", "", "ab", 2, None):
+    for value in ("d", "", "ab", 2, None, np.zeros(3), ["b"]):
         assert not asked.reply(value).right
+    assert "in quotes" in asked.reply(np.zeros(3)).says
     assert "one of the letters a, b, c" in asked.reply("d").says
 
 

@@ -154,3 +154,12 @@ def test_each_wrong_number_has_its_own_hint():
     reply = list_reply([19.2, 50.0], (19.2, 69.2), ("m/s", "km/h"), hints=hints)
     assert reply.says == "1 of 2 right. km/h: too low. Times 3.6."
     assert "Times" not in list_reply([19.2, -69.2], (19.2, 69.2), hints=hints).says
+
+
+def test_what_is_counted_has_no_unit():
+    assert "too high" in says(36, 10, count=True) and "km/h" not in says(36, 10, count=True)
+    assert "km/h" not in list_reply([10, 36], (10.0, 10.0), count=True).says
+
+
+def test_an_amount_has_no_sign():
+    assert "an amount" in says(-28.7, 28.7) and "an amount" not in says(36.2, -36.2)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy import linalg
 
+from railbridge.lessons import trials
 from railbridge.lessons.trials import TRIALS, reply
 
 
@@ -87,7 +88,12 @@ def test_each_trial_is_passed_by_a_function_written_here():
         ("notch_shape", lambda x, a, b: 2 * notch_shape(x, a, b), "twice or half"),
         ("condense", lambda *a: condense(*a)[:3], "it returns 3 numbers, 5 numbers are expected"),
         ("condense", lambda *a: np.array(condense(*a)) * [1, 1, 1, -1, 1], "M_y: .*the sign"),
-        ("rayleigh_coefficients", lambda *a: rayleigh_coefficients(*a)[::-1], "alpha: "),
+        (
+            "rayleigh_coefficients",
+            lambda *a: rayleigh_coefficients(*a)[::-1],
+            "order asked for: alpha, beta",
+        ),
+        ("rayleigh_coefficients", lambda *a: (0.1, rayleigh_coefficients(*a)[1]), "alpha: far too"),
         ("static_moment", lambda *a: -static_moment(*a), "the sign is not"),
         ("static_moment", lambda a, f, x, span: f[0] * x * (span - x) / span, "1 of 3 cases pass"),
         ("fixed_point", lambda f, x: f(f(x)), "Case 1, x = cos x, from 1: .*too low|high"),
@@ -130,3 +136,20 @@ def test_a_function_may_change_what_it_was_given():
         return total
 
     assert reply("static_moment", greedy).right and reply("static_moment", greedy).right
+
+
+def test_a_function_that_never_ends_is_stopped(monkeypatch):
+    monkeypatch.setattr(trials, "SECONDS", 0.2)
+
+    def endless(function, start):
+        while True:
+            start = function(start)
+
+    assert "does not end within 0.2 s" in reply("fixed_point", endless).says
+    assert reply("fixed_point", fixed_point).right
+
+
+def test_parts_in_another_order_and_a_dict_are_told():
+    swapped = reply("condense", lambda *a: np.array(condense(*a))[[1, 0, 2, 3, 4]]).says
+    assert "not in the order asked for: F_y, F_z, M_x, M_y, M_z" in swapped
+    assert "a dict: return the numbers" in reply("condense", lambda *a: {"F_y": 1.0}).says

@@ -53,6 +53,8 @@ class Number:
         Relative deviation that still is right.
     near : float
         Absolute deviation that still is right.
+    count : bool
+        Whether it counts things; it then has no unit.
     slips : tuple of Slip
     """
 
@@ -60,12 +62,13 @@ class Number:
     unit: str = ""
     within: float = 5e-3
     near: float = 0.0
+    count: bool = False
     slips: tuple[Slip, ...] = ()
 
     def reply(self, given: Any) -> Reply:
         """Return what is said of an answer."""
         options = {"within": self.within, "near": self.near, "unit": self.unit}
-        reply = number_reply(given, self.number, **options)
+        reply = number_reply(given, self.number, count=self.count, **options)
         if reply.given and not reply.right:
             for slip in self.slips:
                 if number_reply(given, slip.number, within=self.within, near=self.near).right:
@@ -75,7 +78,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Numbers:
-    """Several numbers are asked for, in a given order; `within`, `near` as in `Number`.
+    """Several numbers are asked for, in a given order; `within`, `near`, `count` as in `Number`.
 
     `hints` are said of the wrong ones, each of its own.
     """
@@ -86,12 +89,13 @@ class Numbers:
     unit: str = ""
     within: float = 5e-3
     near: float = 0.0
+    count: bool = False
 
     def reply(self, given: Any) -> Reply:
         """Return what is said of an answer."""
         options = {"within": self.within, "near": self.near, "unit": self.unit}
-        options["hints"] = self.hints
-        return list_reply(given, self.numbers, self.names, **options)
+        more = {"count": self.count, "hints": self.hints}
+        return list_reply(given, self.numbers, self.names, **options, **more)
 
 
 @dataclass(frozen=True)
@@ -114,7 +118,7 @@ class Choice:
 
     def reply(self, given: Any) -> Reply:
         """Return what is said of an answer."""
-        if is_open(given) or given == "":
+        if is_open(given) or (isinstance(given, str) and not given):
             return UNANSWERED
         letter = given.strip().strip("()").lower() if isinstance(given, str) else ""
         if len(letter) != 1 or letter not in self.of:

@@ -103,7 +103,13 @@ def is_open(given: Any) -> bool:
 
 
 def number_reply(
-    given: Any, expected: float, *, within: float = 5e-3, near: float = 0.0, unit: str = ""
+    given: Any,
+    expected: float,
+    *,
+    within: float = 5e-3,
+    near: float = 0.0,
+    unit: str = "",
+    count: bool = False,
 ) -> Reply:
     """Return the reply to a number.
 
@@ -118,6 +124,8 @@ def number_reply(
         Absolute deviation that still is right, in `unit`; for an answer of zero.
     unit : str
         The unit that is asked for.
+    count : bool
+        Whether it counts things: then no factor between units explains it.
     """
     if is_open(given):
         return UNANSWERED
@@ -131,13 +139,15 @@ def number_reply(
         return Reply(0.0, f"not right: its size is too large{_asked(unit)}.", hinted=True)
     ratio, about = value / expected, max(within, 2e-3)
     if abs(ratio + 1.0) <= about or abs(value + expected) <= slack:
-        return Reply(0.0, "the size is right, the sign is not. Which way counts as positive?")
+        amount = ", or is it an amount, which has none" if expected > 0 else ""
+        asked = f"the size is right, the sign is not. Which way counts as positive{amount}?"
+        return Reply(0.0, asked)
     if value == 0.0:
         return Reply(0.0, "it is not zero.", hinted=True)
     sign = "" if ratio > 0 else "the sign is wrong, and "
-    if slip := _slip(abs(ratio), about, unit):
+    if not count and (slip := _slip(abs(ratio), about, unit)):
         return Reply(0.0, sign + slip)
-    if _is_rounded(value, expected):
+    if not count and _is_rounded(value, expected):
         return Reply(0.0, "close, but rounded too much: give three digits.")
     off = _too_much(abs(ratio), expected > 0 and ratio > 0)
     return Reply(0.0, f"{sign}{off}{_asked(unit)}.", hinted=True)
@@ -208,6 +218,7 @@ def list_reply(
     within: float = 5e-3,
     near: float = 0.0,
     unit: str = "",
+    count: bool = False,
     hints: tuple[str, ...] = (),
 ) -> Reply:
     """Return the reply to several numbers; its score is the share of them that are right.
@@ -219,7 +230,7 @@ def list_reply(
     expected : tuple of float
     names : tuple of str
         What each of them is; "number 2" where there is no name.
-    within, near, unit
+    within, near, unit, count
         As for `number_reply`.
     hints : tuple of str
         Said of each wrong number that a hint on the matter helps.
@@ -233,7 +244,7 @@ def list_reply(
         return UNANSWERED
     if len(values) != len(expected):
         return Reply(0.0, f"{len(expected)} numbers are asked for, these are {len(values)}.")
-    options = {"within": within, "near": near, "unit": unit}
+    options = {"within": within, "near": near, "unit": unit, "count": count}
     replies = [number_reply(v, e, **options) for v, e in zip(values, expected, strict=True)]
     good = sum(reply.right for reply in replies)
     if good == len(replies):

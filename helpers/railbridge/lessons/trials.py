@@ -8,7 +8,10 @@ number.
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,6 +22,9 @@ from ..tracks import Notch
 from .replies import UNANSWERED, Reply, is_open, number_reply
 
 __all__ = ["TRIALS", "Case", "Trial", "reply"]
+
+SECONDS = 5.0
+"""What one call of a learner's function may take."""
 
 
 @dataclass(frozen=True)
@@ -90,12 +96,16 @@ _NOTHING = "it returns nothing. Does it end with return?"
 def _fault(trial: Trial, case: Case, given: Callable) -> str:
     """Return what is wrong with one call, or nothing."""
     try:
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), _at_most(SECONDS):
             result = given(*copy.deepcopy(case.arguments))
+    except _TooLong:
+        return f"it does not end within {SECONDS:g} s. Is there a loop that never stops?"
     except Exception as error:  # whatever a learner's function may raise
         return f"it stops with {type(error).__name__}: {error}."
     if is_open(result):
         return _NOTHING
+    if isinstance(result, dict):
+        return "it returns a dict: return the numbers, separated by commas."
     try:
         values = np.asarray(result, dtype=float)
     except (TypeError, ValueError):
@@ -109,6 +119,30 @@ def _fault(trial: Trial, case: Case, given: Callable) -> str:
     return _difference(trial, values, expected)
 
 
+class _TooLong(Exception):
+    """A function did not end in time."""
+
+
+@contextmanager
+def _at_most(seconds: float) -> Iterator[None]:
+    """Interrupt what takes longer, where a program can do that to itself: not on Windows."""
+    main = threading.current_thread() is threading.main_thread()
+    if not (main and hasattr(signal, "setitimer")):
+        yield
+        return
+
+    def stop(number: int, frame: Any) -> None:
+        raise _TooLong
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+
+
 def _shape(values: np.ndarray) -> str:
     if values.size == 1:
         return "one number"
@@ -116,8 +150,9 @@ def _shape(values: np.ndarray) -> str:
 
 
 def _difference(trial: Trial, values: np.ndarray, expected: np.ndarray) -> str:
-    if values.ndim and not trial.parts and _reordered(trial, values, expected):
-        return "the numbers are right, but not in the order asked for."
+    if values.ndim == 1 and _reordered(trial, values, expected):
+        order = f": {', '.join(trial.parts)}" if trial.parts else ""
+        return f"the numbers are right, but not in the order asked for{order}."
     if trial.parts:  # each part is compared with its own size
         pairs = zip(trial.parts, values, expected, strict=True)
     else:
