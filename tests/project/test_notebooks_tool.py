@@ -174,7 +174,7 @@ def test_a_changed_digit_and_a_stripped_notebook_fail(tmp_path):
     )
     failed = re.findall(r"^FAILED (\w+)\.ipynb::Cell (\d+)", done.stdout, re.MULTILINE)
     assert done.returncode == 1, done.stdout
-    assert failed.count(("changed", "1")) == 1
+    assert failed.count(("changed", "3")) == 1, "the first cell that is compared"
     assert {name for name, _ in failed} == {"changed", "stripped"}
     assert [name for name, _ in failed].count("changed") == 1
     assert "Cell outputs differ" in done.stdout
