@@ -48,8 +48,8 @@ class Options:
     speed : float
         m/s; 72 km/h is 20.
     loads : {"wheels", "bogies", "condensed"}
-        How the wheel forces act on the deck: as they are, as one force a bogie, or one a car (the
-        paper).
+        How the wheel forces act on the deck: as they are, as one force per bogie, or one per car
+        (the paper).
     interaction : {"iterate", "rigid", "direct"}
         The fixed point; the deck under the forces of a rigid deck (iteration 0); or train and deck
         solved together at every step (wheel loads only; the limit of the fixed point, without

@@ -168,7 +168,7 @@ def test_printed_report_shows_every_table(written):
     text = written[0]
     for table in ("Table 2, vehicle", "Table 2, deck", "Table 3", "Table 4"):
         assert table in text
-    for heading in ("ONE FORCE A CAR", "TWO FORCES A CAR", "TRUE WHEEL LOADS", "A GUESS"):
+    for heading in ("ONE FORCE PER CAR", "TWO FORCES PER CAR", "TRUE WHEEL LOADS", "A GUESS"):
         assert heading in text
     assert "identified, not known" in text
     assert max(map(len, text.splitlines())) < 140

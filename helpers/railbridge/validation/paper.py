@@ -283,8 +283,8 @@ def reproduce() -> dict[str, Any]:
 def main() -> None:
     """Print the tables and write ``build/reproduction.json``."""
     for title, name, loads in [
-        ("ONE FORCE A CAR (the paper's procedure)", "paper", "condensed"),
-        ("TWO FORCES A CAR (one per bogie)", "paper", "bogies"),
+        ("ONE FORCE PER CAR (the paper's procedure)", "paper", "condensed"),
+        ("TWO FORCES PER CAR (one per bogie)", "paper", "bogies"),
         ("TRUE WHEEL LOADS (the coupled solution)", "paper", "wheels"),
         (
             "A GUESS AT THE PAPER'S READING: "

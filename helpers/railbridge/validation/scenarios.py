@@ -89,7 +89,7 @@ def run(name: str = "paper", loads: str = "condensed", iterations: int | None = 
     name : str
         One of `SCENARIOS`.
     loads : {"condensed", "bogies", "wheels"}
-        One force a car, one a bogie, or true wheel loads.
+        One force per car, one per bogie, or true wheel loads.
     iterations : int, optional
         Passes of the fixed point; without, until it has converged.
     """
@@ -104,8 +104,8 @@ def _run(name: str, loads: str, iterations: int | None) -> Crossing:
 def readings() -> list[tuple[dict[str, Any], float]]:
     """Return the first deviation of Eq. 3 for 64 ways to read the paper.
 
-    One force a car or true wheel loads, all ways of excitation and of feedback, two wavelengths and
-    four places of the waves relative to the deck. Three cars are enough: a fourth comes when the
+    One force per car or true wheel loads, all ways of excitation and of feedback, two wavelengths
+    and four places of the waves relative to the deck. Three cars are enough: a fourth comes when the
     first has left the record that Eq. 3 uses.
 
     Returns
