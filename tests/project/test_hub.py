@@ -62,7 +62,7 @@ def test_limits_leave_room_for_what_was_measured(settings):
     assert 1000 < max(most.values()) + server < 2000
     assert (settings.Spawner.mem_guarantee, settings.Spawner.mem_limit) == ("1G", "2G")
     teachers = (ROOT / "docs" / "teaching.md").read_text(encoding="utf-8")
-    said = "1 GB of memory a student for 00 to 05, 2 GB from 06 on: a page keeps up to "
+    said = "1 GB of memory per student for 00 to 05, 2 GB from 06 on: a page keeps up to "
     kept = re.search(re.escape(said) + r"([\d.]+) GB", teachers).group(1)
     assert float(kept) == round(max(most.values()) / 1000, 1)
 

@@ -105,8 +105,8 @@ def readings() -> list[tuple[dict[str, Any], float]]:
     """Return the first deviation of Eq. 3 for 64 ways to read the paper.
 
     One force per car or true wheel loads, all ways of excitation and of feedback, two wavelengths
-    and four places of the waves relative to the deck. Three cars are enough: a fourth comes when the
-    first has left the record that Eq. 3 uses.
+    and four places of the waves relative to the deck. Three cars are enough: a fourth comes when
+    the first has left the record that Eq. 3 uses.
 
     Returns
     -------
