@@ -268,7 +268,7 @@ def test_the_train_runs_by_itself(visited, notebook, panel, start):
     assert notebook.complaints() == visited.complaints() == []
 
 
-@of("01_vehicle_modes", "05_deck_response")
+@of("01_vehicle_modes", "02_irregularities", "05_deck_response")
 def test_the_animation_waits_plays_and_pauses(visited, notebook):
     (root,) = visited.page.locator("[data-animation]").all()
     AnimationOnPage(root).try_everything()

@@ -99,7 +99,7 @@ def test_text_can_be_read_on_its_ground(scheme, page):
     assert dark == [scheme == "dark", scheme == "light"]
 
 
-@pytest.mark.parametrize("name", ["01_vehicle_modes", "05_deck_response"])
+@pytest.mark.parametrize("name", ["01_vehicle_modes", "02_irregularities", "05_deck_response"])
 def test_animations_play_from_disk(name, page, record):
     page.goto((SITE / "notebooks" / f"{name}.html").as_uri())
     (root,) = page.locator("[data-animation]").all()

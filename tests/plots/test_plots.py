@@ -472,6 +472,20 @@ def test_rails_and_their_slopes_stand_under_their_names():
             assert not shown[x < -50.0].any() and shown.any()
 
 
+def test_a_track_that_is_level_sideways_has_no_lateral_curve():
+    shown = [line.get_label() for line in plots.irregularity(rb.Track(TRACK.vertical)).lines]
+    assert shown and not any("lateral" in label for label in shown)
+    for curves in (plots.irregularity(rb.Track()), plots.irregularity(TRACK)):
+        assert any("vertical" in line.get_label() for line in curves.lines)
+    assert any("lateral" in line.get_label() for line in plots.irregularity(TRACK).lines)
+
+
+def test_each_wheel_path_has_dashes_of_its_own(run):
+    wheels = [(1, 1), (1, 5), (2, 1)]
+    ax = plots.wheel_paths(run.train, TRACK, 20.0, wheels)
+    assert len({line.get_linestyle() for line in ax.lines}) == len(wheels)
+
+
 def test_wheels_stand_behind_the_first_axle_and_meet_the_wave_later(run):
     train = run.train
     x, r = labelled(plots.wheels_on_track(train, TRACK, 18.0), "wheels of the train").get_data()

@@ -72,7 +72,7 @@ def _car_from_the_side(d: Drawing, middle: float, rail: float, scale: float = 20
 
 
 def _vehicle() -> Drawing:
-    d = Drawing(900, 400, "A car from the side, from above and from behind, with its dimensions.")
+    d = Drawing(900, 400, "A car, side, from above and looking forward, with its dimensions.")
     rail, middle = 160, 290
     axles = _car_from_the_side(d, middle, rail)
     d.ground([(20, rail), (560, rail)])
@@ -104,7 +104,7 @@ def _vehicle() -> Drawing:
         d.spring(x + side * 49, rail - 38, rail - 22, half=4)
         d.box(x + side * 49 - 5, rail - 22, 10, 22)
     d.ground([(x - 100, rail), (x + 100, rail)])
-    d.text(x, rail - 138, "from behind", anchor="middle")
+    d.text(x, rail - 138, "looking forward", anchor="middle")
     for y, low, words in ((-103, -78, "l_z"), (-78, -44, "a_z"), (-44, -22, "b_z")):
         d.measure((x + 92, rail + y), (x + 92, rail + low), words)
     d.arrow((x - 96, rail - 90), (x - 134, rail - 90))

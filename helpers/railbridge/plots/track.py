@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from .. import errors
 from ..decks import Deck
 from ..errors import InputError
-from ..tracks import FadeIn, Notch, Track
+from ..tracks import FadeIn, Level, Notch, Track
 from ..trains import AxleTrain, Train
 from ..vehicles import Vehicle
 from .drawing import (
@@ -45,7 +45,7 @@ def irregularity(
 ) -> Axes:
     """Plot vertical and lateral irregularity along the track.
 
-    Left and right rail apart where they differ.
+    Left and right rail apart where they differ; no lateral curve where all is level sideways.
 
     Parameters
     ----------
@@ -69,6 +69,8 @@ def irregularity(
     if deck is not None:
         shade(ax, "deck", 0.0, getattr(deck, "length", deck), "deck")
     for direction in ("vertical", "lateral"):
+        if direction == "lateral" and _is_level(track, direction) and not reuses_artists(ax):
+            continue
         quantity, values = f"{_quantity}_{direction}", {}
         for side in ("left", "right"):
             rail = track.rail(direction, side)
@@ -83,6 +85,10 @@ def irregularity(
             quantity_curve(ax, quantity, x, values[side], **line)
     word = "irregularity r" if _quantity == "irregularity" else "slope dr/dx"
     return label_axes(ax, PLACE_LABEL, f"{word} ({style_of(quantity).unit})")
+
+
+def _is_level(track: Track, direction: str) -> bool:
+    return all(isinstance(track.rail(direction, side), Level) for side in ("left", "right"))
 
 
 def slope(
@@ -156,10 +162,11 @@ def wheel_paths(
             raise InputError("wheels", pair, allowed, "Both are counted from 1")
     ax = axes_or_new(ax)
     time, own = np.linspace(0.0, stop, 801), style_of("irregularity_vertical").colour
-    for (car, number), colour in zip(wheels, (own, *RUN_COLOURS), strict=False):
+    dashes = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)))
+    for i, ((car, number), colour) in enumerate(zip(wheels, (own, *RUN_COLOURS), strict=False)):
         wheel = known[car, number]
         r = track.rail("vertical", wheel.side).value(speed * time - wheel.delay)
-        line = {"color": colour, "ls": "-" if colour == own else "--"}
+        line = {"color": colour, "ls": dashes[i % len(dashes)]}
         line |= {"name": f"{car} {number}", "label": f"car {car}, wheel {number}"}
         quantity_curve(ax, "irregularity_vertical", time, r, **line)
     return label_axes(ax, TIME_LABEL, "r under the wheel (mm)")
