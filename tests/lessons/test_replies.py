@@ -111,6 +111,7 @@ def test_a_list_of_another_length_or_kind_is_told():
 
 def test_a_hint_is_for_what_is_not_understood_not_for_slips():
     assert number_reply(2.0, RIGHT).hinted and list_reply([9.0, 2.0], (1.1, 2.0)).hinted
+    assert number_reply(2 * RIGHT, RIGHT).hinted and number_reply(RIGHT / 2**0.5, RIGHT).hinted
     slips = (-RIGHT, 1e3 * RIGHT, RIGHT * 2 * np.pi, "x", None, RIGHT)
     assert not any(number_reply(value, RIGHT).hinted for value in slips)
 

@@ -146,7 +146,8 @@ def number_reply(
         return Reply(0.0, "it is not zero.", hinted=True)
     sign = "" if ratio > 0 else "the sign is wrong, and "
     if not count and (slip := _slip(abs(ratio), about, unit)):
-        return Reply(0.0, sign + slip)
+        # A factor of two is a matter of the physics as often as a slip.
+        return Reply(0.0, sign + slip, hinted="factor of two" in slip)
     if not count and _is_rounded(value, expected):
         return Reply(0.0, "close, but rounded too much: give three digits.")
     off = _too_much(abs(ratio), expected > 0 and ratio > 0)
