@@ -259,6 +259,8 @@ def rules_of_the_sections(notebook, number, page):
         ]
         if SYMBOL_HEADER not in rows:
             yield "a folded symbol table with the columns " + " | ".join(SYMBOL_HEADER)
+        if not any("(../docs/symbols.md)" in fold for fold in folds):
+            yield "the symbol table leads to the list of the suite, ../docs/symbols.md"
     if THEORY in page.sections:
         code = joined(filter(is_code, notebook.cells))
         if "rb.plots.diagram(" not in code and "rb.plots.vehicle(" not in code:
@@ -574,6 +576,7 @@ BREAKING = {
         replace("<details><summary>The symbols", "<div><summary>The symbols"),
         "a folded symbol table",
     ),
+    "no list of symbols": (replace("(../docs/symbols.md)", ""), "leads to the list of the suite"),
     "no sketch": (replace("rb.plots.diagram(", "print("), "a drawn sketch"),
     "sketch of letters": (
         lambda nb: nb.cells[0].update(source=nb.cells[0].source + "\n```\n +--+\n```\n"),
