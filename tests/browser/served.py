@@ -36,6 +36,16 @@ def notebooks_with_panels(folder=NOTEBOOKS):
     ]
 
 
+def notebooks_with_animations(folder=NOTEBOOKS):
+    """Names of the notebooks in which a cell shows something that moves."""
+    paths = sorted(folder.glob("[0-9][0-9]_*.ipynb"))
+    return [
+        path.stem
+        for path in paths
+        if any("rb.plots.animate_" in cell.source for cell in code_cells(path))
+    ]
+
+
 def code_cells(path):
     return [cell for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code"]
 

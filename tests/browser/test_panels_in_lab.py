@@ -9,10 +9,11 @@ from labpage import NotebookOnPage
 from layout import faults, nameless
 from moving import AnimationOnPage
 from panel import PanelOnPage
-from served import notebooks_with_panels
+from served import notebooks_with_animations, notebooks_with_panels
 from visit import WINDOW, visiting
 
 PANELS = notebooks_with_panels()
+MOVING = notebooks_with_animations()
 # A case of one's own, as a student writes it: with a step of 5 ms, 62 m/s leave ten samples in
 # waves of 3.1 m, and not in 3 m.
 OWN_CASE = """import railbridge as rb
@@ -268,7 +269,7 @@ def test_the_train_runs_by_itself(visited, notebook, panel, start):
     assert notebook.complaints() == visited.complaints() == []
 
 
-@of("01_vehicle_modes", "02_irregularities", "05_deck_response")
+@of(*MOVING)
 def test_the_animation_waits_plays_and_pauses(visited, notebook):
     (root,) = visited.page.locator("[data-animation]").all()
     AnimationOnPage(root).try_everything()

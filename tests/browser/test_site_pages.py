@@ -5,7 +5,7 @@ import re
 
 import pytest
 from moving import AnimationOnPage
-from served import ROOT
+from served import ROOT, notebooks_with_animations
 
 SITE = ROOT / "build" / "site"
 PAGES = sorted(path.relative_to(SITE).as_posix() for path in SITE.rglob("*.html"))
@@ -99,7 +99,7 @@ def test_text_can_be_read_on_its_ground(scheme, page):
     assert dark == [scheme == "dark", scheme == "light"]
 
 
-@pytest.mark.parametrize("name", ["01_vehicle_modes", "02_irregularities", "05_deck_response"])
+@pytest.mark.parametrize("name", notebooks_with_animations())
 def test_animations_play_from_disk(name, page, record):
     page.goto((SITE / "notebooks" / f"{name}.html").as_uri())
     (root,) = page.locator("[data-animation]").all()

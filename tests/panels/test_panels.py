@@ -2,6 +2,7 @@
 
 import asyncio
 import io
+import re
 import threading
 from base64 import b64decode
 
@@ -455,6 +456,20 @@ def test_the_paper_case_gives_the_known_numbers(all_panels):
     )
     assert "3.307 Hz, damping 3.00 %" in all_panels["deck_modes"].summary
     assert "forcing 1.389 Hz." in all_panels["deck_modes"].summary
+
+
+def test_the_task_of_notebook_03_has_the_answer_it_gives(all_panels):
+    """Steady bounce is largest at 19.5 m/s, above the 19.2 m/s at which the forcing meets bounce;
+    at 10.4 m it vanishes, and wheels lose load all the same."""
+    panel = all_panels["rigid_forces"]
+    said = {v: panel.set(speed=v).summary for v in (19.0, 19.5, 20.0)}
+    steady = {v: float(re.search(r"steady bounce ([\d.]+) kN", s)[1]) for v, s in said.items()}
+    assert max(steady, key=steady.get) == 19.5 and steady[19.5] == 78.4
+    assert round(1.334 * 14.4, 1) == 19.2
+    summary = panel.set(speed=20.0, wavelength=10.4).summary
+    assert "steady bounce 0.0 kN" in summary
+    assert float(re.search(r"unloading (\d\.\d+)", summary)[1]) > 0.05
+    panel.reset()
 
 
 def test_only_the_mode_is_marked_on_the_curve_of_damping(all_panels):

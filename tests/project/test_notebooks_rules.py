@@ -60,6 +60,8 @@ PAGES = {
         ("try",),
         ("You need", "Time"),
     ),
+    # A car that moves, and the step of a mode by hand.
+    "03": Page(words=(500, 1520), code_lines=(40, 135)),
     # The loop twice: once in fifteen lines without the suite.
     "06": Page(words=(500, 2000), code_lines=(40, 180)),
     # Every table and result of the paper, each with its picture and its layout.

@@ -231,7 +231,7 @@ def answers(v):
     full = np.linalg.norm(planar.transfer(13.23)[:, 1, :, 1] @ answer @ phi.T, 2)
     gain = full / v.light
     promise = (
-        "below one: each round shrinks the change"
+        "below one: each pass shrinks the change"
         if gain < 1
         else "above one: nothing, the change may grow or not"
     )
