@@ -364,3 +364,10 @@ def test_motion_on_a_rigid_deck_settles_to_the_steady_one_and_gives_the_accelera
     bounce = second[CAR.labels.index("car z"), 0]
     middle = train.rigid_accelerations(waves(14.4), passage)[1][1, 1]
     assert np.diff(bounce, 2) / 2e-3**2 == pytest.approx(middle[1:-1], abs=5e-3)
+
+
+def test_another_excitation_is_refused_by_name():
+    train = rb.Train(rb.vehicle("sprung_mass"))
+    passage = rb.Passage(20.0, time_step=1e-3, samples=100, excitation="bogie")
+    with pytest.raises(rb.InputError, match=r"^excitation = 'bogie'"):
+        train.rigid_forces(rb.Track(), passage)

@@ -430,3 +430,29 @@ def test_motion_of_a_mass_on_a_spring_is_the_textbook_s():
     assert car.motion(f).shape == (1, 1, 2)
     assert car.motion(f)[0, 0, 1] == pytest.approx((c * s + k) / (mass * s**2 + c * s + k))
     assert CAR.motion(0.0)[CAR.labels.index("car z"), :, 1].sum() == pytest.approx(1.0)
+
+
+def on_one_spring(**changes):
+    given = {"from_": "mass", "to": "rail", "at": (0.0, 0.0, 0.0)}
+    spring = rb.Spring(**given | changes, stiffness=(0.0, 1e6), damping=(0.0, 0.0))
+    body = rb.Body("mass", 1e3, (1.0, 1.0, 1.0), (0.0, 0.0, 1.0), ("z",))
+    return rb.Vehicle("small", (body,), (spring,))
+
+
+@pytest.mark.parametrize("place", [0.3, -0.3, 4.0])
+def test_wheels_on_one_side_of_mid_length_are_refused(place):
+    assert len(on_one_spring().contacts) == 1
+    with pytest.raises(rb.InputError, match="all wheels are on one side of x = 0"):
+        on_one_spring(at=(place, 0.0, 0.0))
+
+
+@pytest.mark.parametrize(("changes", "field"), [({"from_": "mas"}, "from"), ({"to": "rial"}, "to")])
+def test_an_end_of_a_spring_that_is_no_body_is_named_as_in_files(changes, field):
+    with pytest.raises(rb.InputError, match=rf"vehicle small: springs\[1\]\.{field} = "):
+        on_one_spring(**changes)
+
+
+def test_a_frequency_that_is_none_is_refused_with_its_unit():
+    for ask in (on_one_spring().transfer, on_one_spring().motion):
+        with pytest.raises(rb.InputError, match=r"^frequency_hz.* in Hz"):
+            ask("fast")
