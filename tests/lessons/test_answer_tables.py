@@ -78,3 +78,14 @@ def test_an_answer_has_a_variable_of_its_own():
     assert Exercise("3.4", Written("condense")).variable == "condense"
     names = [asked.variable for asked in exercises().values()]
     assert len(names) == len(set(names))
+
+
+def test_hints_and_counts_of_a_list_are_used():
+    asked = Numbers((10.0, 25.0), ("plain", "half"), ("Look at (6.4).", "Slower."), count=True)
+    assert asked.reply([36, 25]).says == "1 of 2 right. plain: far too high. Look at (6.4)."
+    assert asked.reply([11, 26]).says.count(" Slower.") == 1
+
+
+def test_a_guess_earns_no_marks_and_everything_else_does():
+    for name, asked in exercises().items():
+        assert asked.marks == 0 if name.endswith("guess") or name == "0.1" else asked.marks > 0

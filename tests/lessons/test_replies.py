@@ -164,3 +164,14 @@ def test_what_is_counted_has_no_unit():
 
 def test_an_amount_has_no_sign():
     assert "an amount" in says(-28.7, 28.7) and "an amount" not in says(36.2, -36.2)
+
+
+def test_a_verdict_is_headed_by_what_it_is_about():
+    right = number_reply(RIGHT, RIGHT)
+    assert str(Verdict("12.4", right)) == "Exercise 12.4: right."
+    assert str(Verdict("12.guess", right)) == "Guess 12: right."
+
+
+def test_what_is_wrong_with_several_numbers_is_said_one_after_the_other():
+    reply = list_reply([9.0, 1.0], (1.1, 2.7), ("a", "b"))
+    assert reply.says == "0 of 2 right. a: far too high. b: far too low."
