@@ -251,6 +251,15 @@ def test_steady_state_needs_one_wavelength():
             rb.steady_forces(CAR, wrong, V)
 
 
+def test_two_rails_given_as_a_list_are_told_of_rails():
+    mirrored = [rb.Harmonic(5e-3, wavelength=14.4, phase=psi) for psi in (0.0, np.pi)]
+    with pytest.raises(rb.InputError, match=r"Rails\(left=\.\.\., right=\.\.\.\)"):
+        rb.steady_forces(CAR, rb.Track(vertical=mirrored), V)
+    with pytest.raises(rb.InputError) as caught:
+        rb.steady_forces(CAR, rb.Track(), V)
+    assert "Rails" not in str(caught.value)
+
+
 @pytest.mark.parametrize(
     ("made", "named"),
     [

@@ -621,7 +621,9 @@ def _steady_support(
     others = any(np.isfinite(r.shortest) and not hasattr(r, "wavelength") for r in rails)
     if len(waves) != 1 or others:
         allowed = "the steady state in closed form needs harmonic rails of one wavelength"
-        raise InputError("track", None, allowed)
+        added = any(isinstance(given, list | tuple) for given in (track.vertical, track.lateral))
+        lists = "A list adds its parts up; two rails that differ are Rails(left=..., right=...)"
+        raise InputError("track", None, allowed, lists * added)
     wavelength = waves.pop()
     met = np.zeros((len(vehicle.contacts), 2), dtype=complex)
     for i, contact in enumerate(vehicle.contacts):

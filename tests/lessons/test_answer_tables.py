@@ -53,6 +53,16 @@ def test_a_known_slip_has_its_own_words():
     assert not asked.reply(...).given
 
 
+def test_a_known_slip_in_a_list_takes_the_place_of_the_hint():
+    slips = (Slip(1.2138, "That is yaw."),)
+    asked = Numbers((0.6163, 1.2119), hints=("Softer.", "Beside yaw."), slips=slips, within=3e-4)
+    assert asked.reply([0.6163, 1.2138]).says.endswith("That is yaw.")
+    assert asked.reply((0.7, 1.5)).says.endswith("Beside yaw.")
+    assert not asked.reply(...).given and not asked.reply([..., ...]).given
+    for kind in ("12", 5.0, [1.0], np.zeros(3)):
+        assert not asked.reply(kind).right
+
+
 def test_a_choice_is_a_letter():
     asked = Choice("b", "abc", {"a": "not a: the spring is soft."})
     assert asked.reply("B").right and asked.reply(" (b) ").right

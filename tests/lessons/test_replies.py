@@ -135,9 +135,22 @@ def test_what_a_learner_wrote_is_not_obeyed_by_the_browser():
     assert "<b>x" not in Verdict("1.2", Reply(0.0, "it stops with <b>x</b>"))._repr_html_()
 
 
-@pytest.mark.parametrize("value", [1.3, 1.0])
-def test_what_is_rounded_too_much_is_told_so(value):
-    assert says(value) == "close, but rounded too much: give three digits."
+def test_what_is_rounded_too_much_is_told_so():
+    assert says(1.3) == "close, but rounded too much: give three digits."
+    assert number_reply(0.6, 0.616).says == "close, but rounded too much: give three digits."
+    four = number_reply(0.616, 0.6163, within=3e-4)
+    assert four.says == "close, but rounded too much: give four digits."
+
+
+@pytest.mark.parametrize(("value", "expected"), [(1.0, 1.337), (1.0, 1.019), (1.0, 1.083)])
+def test_what_is_far_off_or_says_no_difference_is_not_called_rounded(value, expected):
+    assert number_reply(value, expected).says in ("too low.", "a little too low.")
+
+
+def test_only_what_may_be_an_amount_is_asked_whether_it_is_one():
+    assert "amount" in number_reply(-2.0, 2.0).says
+    reply = number_reply(-2.0, 2.0, component=True)
+    assert reply.says == "the size is right, the sign is not. Which way counts as positive?"
 
 
 def test_right_numbers_in_another_order_are_told_so():

@@ -44,6 +44,14 @@ def fixed_point(function, start):
     return start
 
 
+def steps(function, start, ends):
+    """The loop with another end; `ends` may also be asked of two numbers."""
+    while True:
+        old, start = start, function(start)
+        if np.all(ends(start - old)):
+            return start
+
+
 def one_force(x_i, span):
     xi = np.clip(0.5 - np.abs(x_i) / span, 0.0, None)
     return 1 / np.mean(3 * xi - 4 * xi**3), 1 / np.mean(2 * xi)
@@ -102,6 +110,23 @@ def test_each_trial_is_passed_by_a_function_written_here():
         ("one_force", lambda x, L: one_force(x[abs(x) < L / 2], L), "2 of 3 cases pass"),
         ("lever_rule", lambda x, f, nodes: lever_rule(x, f, nodes)[::-1], "1 of 3 cases pass"),
         ("lever_rule", lambda x, f, nodes: f * (nodes == x), "1 of 3 cases pass"),
+        (
+            "frequencies",
+            lambda m, k: np.sqrt(np.linalg.eigvalsh(np.linalg.solve(m, k))) / (2 * np.pi),
+            "Case 2, .*eigvalsh is for symmetric",
+        ),
+        (
+            "frequencies",
+            lambda m, k: np.sort(np.sqrt(np.diag(k) / np.diag(m))) / (2 * np.pi),
+            "each mass by itself",
+        ),
+        (
+            "static_moment",
+            lambda a, f, x, L: sum(f * np.where(a <= x, a * (L - x), x * (L - a)) / L),
+            "Case 3, .*loads off the span count",
+        ),
+        ("fixed_point", lambda f, x: steps(f, x, lambda change: change < 1e-10), "negative"),
+        ("fixed_point", lambda f, x: steps(f, x, lambda change: abs(change) < 1e-3), "too early"),
         ("condense", lambda *a: "text", "no real numbers"),
         ("fixed_point", lambda f, x: np.nan, "not finite"),
         ("static_moment", lambda *a: 1 / 0, "stops with ZeroDivisionError"),

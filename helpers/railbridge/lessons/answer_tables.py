@@ -11,18 +11,22 @@ A table is one of these kinds, told by the key that holds the answer::
     says = "..."                     ["1.5"]
                                      function = "frequencies"       (a name in `trials`)
 
-``right`` is said after a right answer, and ``hint`` after any wrong one. The numbers are those of
-the solutions in the notebooks: a test runs each of these and checks it.
+``right`` is said after a right answer, and ``hint`` after any wrong one; several numbers may have
+``hints``, one for each. What counts things has ``count = true``: no unit explains it. The numbers
+are those of the solutions in the notebooks: a test runs each of these and checks it.
 """
 
 from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from ..errors import InputError, did_you_mean
 from . import trials
@@ -67,20 +71,19 @@ class Number:
 
     def reply(self, given: Any) -> Reply:
         """Return what is said of an answer."""
-        options = {"within": self.within, "near": self.near, "unit": self.unit}
-        reply = number_reply(given, self.number, count=self.count, **options)
-        if reply.given and not reply.right:
-            for slip in self.slips:
-                if number_reply(given, slip.number, within=self.within, near=self.near).right:
-                    return Reply(0.0, slip.says)
-        return reply
+        limits = {"within": self.within, "near": self.near}
+        reply = number_reply(given, self.number, unit=self.unit, count=self.count, **limits)
+        if reply.right or not reply.given:
+            return reply
+        says = _said_of_slip(self.slips, given, **limits)
+        return Reply(0.0, says) if says else reply
 
 
 @dataclass(frozen=True)
 class Numbers:
     """Several numbers are asked for, in a given order; `within`, `near`, `count` as in `Number`.
 
-    `hints` are said of the wrong ones, each of its own.
+    `hints` are said of the wrong ones, each of its own; a slip's words take their place.
     """
 
     numbers: tuple[float, ...]
@@ -90,12 +93,25 @@ class Numbers:
     within: float = 5e-3
     near: float = 0.0
     count: bool = False
+    slips: tuple[Slip, ...] = ()
 
     def reply(self, given: Any) -> Reply:
         """Return what is said of an answer."""
-        options = {"within": self.within, "near": self.near, "unit": self.unit}
-        more = {"count": self.count, "hints": self.hints}
-        return list_reply(given, self.numbers, self.names, **options, **more)
+        limits = {"within": self.within, "near": self.near}
+        hints = list(self.hints or ("",) * len(self.numbers))
+        if isinstance(given, Sequence | np.ndarray) and len(given) == len(hints):
+            slips = [_said_of_slip(self.slips, each, **limits) for each in given]
+            hints = [slip or hint for slip, hint in zip(slips, hints, strict=True)]
+        options = {"unit": self.unit, "count": self.count, "hints": tuple(hints)}
+        return list_reply(given, self.numbers, self.names, **limits, **options)
+
+
+def _said_of_slip(slips: tuple[Slip, ...], given: Any, **limits: float) -> str:
+    """Return what is said of a number that is often given, or nothing."""
+    for slip in slips:
+        if number_reply(given, slip.number, **limits).right:
+            return slip.says
+    return ""
 
 
 @dataclass(frozen=True)

@@ -15,16 +15,26 @@ import numpy as np
 
 __all__ = ["Reply", "Verdict", "UNANSWERED", "list_reply", "number_reply"]
 
-FACTORS = (
+UNITS = (
     (2 * np.pi, "2 pi times off: is it rad/s where Hz is asked, or the other way round?"),
     (3.6, "3.6 times off: is it km/h where m/s is asked, or the other way round?"),
     (9.81, "9.81 times off: is it a mass where a force is asked, or the other way round?"),
     (180 / np.pi, "57.3 times off: is it in degrees where radians are asked, or the other way?"),
-    (2.0, "exactly twice or half of it: a factor of two is lost, or used twice."),
-    (np.sqrt(2.0), "the root of two off: a factor of two is lost, or used twice, under a root."),
     (np.sqrt(1e3), "the root of 1000 off: kN/m where N/m belongs, or t where kg belongs?"),
 )
-"""What a unit or a convention may be off by, and the question to ask."""
+"""What a unit may be off by, and the question to ask."""
+
+TWICE = (
+    (2.0, "exactly twice or half of it: a factor of two is lost, or used twice."),
+    (np.sqrt(2.0), "the root of two off: a factor of two is lost, or used twice, under a root."),
+)
+"""As `UNITS`, for what is a matter of the physics as often as a slip: a hint helps too."""
+
+FOUR_DIGITS = 1e-3
+"""An answer that must be nearer than this needs four digits; three do for others."""
+
+ROUNDED = 0.03
+"""How far off a number may be that is called rounded; farther off it is wrong."""
 
 
 @dataclass(frozen=True)
@@ -110,6 +120,7 @@ def number_reply(
     near: float = 0.0,
     unit: str = "",
     count: bool = False,
+    component: bool = False,
 ) -> Reply:
     """Return the reply to a number.
 
@@ -126,6 +137,8 @@ def number_reply(
         The unit that is asked for.
     count : bool
         Whether it counts things: then no factor between units explains it.
+    component : bool
+        Whether it points along an axis: then its sign is part of it.
     """
     if is_open(given):
         return UNANSWERED
@@ -139,34 +152,46 @@ def number_reply(
         return Reply(0.0, f"not right: its size is too large{_asked(unit)}.", hinted=True)
     ratio, about = value / expected, max(within, 2e-3)
     if abs(ratio + 1.0) <= about or abs(value + expected) <= slack:
-        amount = ", or is it an amount, which has none" if expected > 0 else ""
+        amount = ", or is it an amount, which has none" if expected > 0 and not component else ""
         asked = f"the size is right, the sign is not. Which way counts as positive{amount}?"
         return Reply(0.0, asked)
     if value == 0.0:
         return Reply(0.0, "it is not zero.", hinted=True)
     sign = "" if ratio > 0 else "the sign is wrong, and "
-    if not count and (slip := _slip(abs(ratio), about, unit)):
-        # A factor of two is a matter of the physics as often as a slip.
-        return Reply(0.0, sign + slip, hinted="factor of two" in slip)
-    if not count and _is_rounded(value, expected):
-        return Reply(0.0, "close, but rounded too much: give three digits.")
+    if not count and (slip := _power_slip(abs(ratio), about, unit) or _asks(UNITS, ratio, about)):
+        return Reply(0.0, sign + slip)
+    if not count and (slip := _asks(TWICE, ratio, about)):
+        return Reply(0.0, sign + slip, hinted=True)
+    digits = 4 if within < FOUR_DIGITS else 3
+    if not count and _is_rounded(value, expected, digits):
+        asked = {3: "three", 4: "four"}[digits]
+        return Reply(0.0, f"close, but rounded too much: give {asked} digits.")
     off = _too_much(abs(ratio), expected > 0 and ratio > 0)
     return Reply(0.0, f"{sign}{off}{_asked(unit)}.", hinted=True)
 
 
-def _is_rounded(value: float, expected: float) -> bool:
-    """Whether a number is the right one with one or two digits."""
-    return any(value == float(f"{expected:.{digits}g}") for digits in (1, 2))
+def _is_rounded(value: float, expected: float, digits: int) -> bool:
+    """Whether a number is the right one with fewer than `digits` digits.
+
+    One is not: who gives it for a ratio says that there is no difference.
+    """
+    near = value != 1.0 and abs(value / expected - 1.0) <= ROUNDED
+    return near and any(value == float(f"{expected:.{few}g}") for few in range(1, digits))
 
 
-def _slip(ratio: float, about: float, unit: str) -> str:
-    """Return what is said of a size that is `ratio` times the right one by a slip, or nothing."""
+def _power_slip(ratio: float, about: float, unit: str) -> str:
+    """Return what is said of a size that is off by a power of ten, or nothing."""
     power = round(np.log10(ratio))
-    if power and abs(ratio / 10.0**power - 1.0) <= about:
-        asked = "; look at its unit" if unit in ("", "-") else f"; asked: {unit}"
-        return f"the digits are right, but a power of ten is not{asked}."
-    for factor, question in FACTORS:
-        if min(abs(ratio / factor - 1.0), abs(ratio * factor - 1.0)) <= about:
+    if not power or abs(ratio / 10.0**power - 1.0) > about:
+        return ""
+    asked = "; look at its unit" if unit in ("", "-") else f"; asked: {unit}"
+    return f"the digits are right, but a power of ten is not{asked}."
+
+
+def _asks(factors: tuple[tuple[float, str], ...], ratio: float, about: float) -> str:
+    """Return the question that belongs to a size `ratio` times the right one, or nothing."""
+    for factor, question in factors:
+        if min(abs(abs(ratio) / factor - 1.0), abs(abs(ratio) * factor - 1.0)) <= about:
             return question
     return ""
 

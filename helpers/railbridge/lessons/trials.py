@@ -46,6 +46,31 @@ class Case:
 
 
 @dataclass(frozen=True)
+class Slip:
+    """A wrong function that is often written, and what is said to it.
+
+    Attributes
+    ----------
+    gives : callable
+        What it returns for the arguments of a case.
+    says : str
+    within : float
+        How near a result must be to what it gives, relative to the largest entry.
+    """
+
+    gives: Callable[..., Any]
+    says: str
+    within: float = 1e-6
+
+    def explains(self, values: np.ndarray, case: Case) -> bool:
+        """Whether this slip makes these wrong values of a case."""
+        given = np.asarray(self.gives(*copy.deepcopy(case.arguments)), dtype=float)
+        return given.shape == values.shape and np.allclose(
+            values, given, rtol=0.0, atol=self.within * np.abs(given).max()
+        )
+
+
+@dataclass(frozen=True)
 class Trial:
     """A function that is asked for.
 
@@ -57,11 +82,13 @@ class Trial:
         What the entries of a result are called; empty where the entries have no names.
     within : float
         Relative to the largest entry of the same part.
+    slips : tuple of Slip
     """
 
     cases: Callable[[], list[Case]]
     parts: tuple[str, ...] = ()
     within: float = 1e-6
+    slips: tuple[Slip, ...] = ()
 
 
 def reply(name: str, given: Any) -> Reply:
@@ -116,7 +143,12 @@ def _fault(trial: Trial, case: Case, given: Callable) -> str:
         return f"it returns {_shape(values)}, {_shape(expected)} {verb} expected."
     if not np.isfinite(values).all():
         return "what it returns is not finite: is something divided by zero?"
-    return _difference(trial, values, expected)
+    difference = _difference(trial, values, expected)
+    if difference:
+        for slip in trial.slips:
+            if slip.explains(values, case):
+                return slip.says
+    return difference
 
 
 class _TooLong(Exception):
@@ -153,22 +185,21 @@ def _difference(trial: Trial, values: np.ndarray, expected: np.ndarray) -> str:
     if values.ndim == 1 and _reordered(trial, values, expected):
         order = f": {', '.join(trial.parts)}" if trial.parts else ""
         return f"the numbers are right, but not in the order asked for{order}."
-    if trial.parts:  # each part is compared with its own size
-        pairs = zip(trial.parts, values, expected, strict=True)
-    else:
-        pairs = iter([("", values, expected)])
-    for part, value, right in pairs:
-        scale = np.abs(expected).max() if np.ndim(right) == 0 else np.abs(right).max()
+    near = trial.within * (np.abs(expected).max() or 1.0)
+    for i, part in enumerate(trial.parts or ("",)):
+        # Each part is compared with its own size, what has no parts as a whole.
+        value, right = (values[i], expected[i]) if trial.parts else (values, expected)
         off = np.abs(value - right)
-        if np.max(off) > trial.within * (np.abs(right).max() or scale or 1.0):
-            worst = np.unravel_index(np.argmax(off), off.shape)
-            near = trial.within * (scale or 1.0)
-            if abs(right[worst]) <= near:
-                return f"{part}: ".removeprefix(": ") + "it must be zero where it is not."
-            if abs(value[worst]) <= near:
-                return f"{part}: ".removeprefix(": ") + "it is zero where it must not be."
-            said = number_reply(value[worst], right[worst], within=trial.within, near=near).says
-            return f"{part}: {said}" if part else said
+        if np.max(off) <= (trial.within * np.abs(right).max() or near):
+            continue
+        worst = np.unravel_index(np.argmax(off), off.shape)
+        options = {"within": trial.within, "near": near, "component": bool(trial.parts)}
+        said = number_reply(value[worst], right[worst], **options).says
+        if abs(right[worst]) <= near:
+            said = "it must be zero where it is not."
+        elif abs(value[worst]) <= near:
+            said = "it is zero where it must not be."
+        return f"{part}: {said}" if part else said
     return ""
 
 
@@ -201,6 +232,15 @@ def _frequencies() -> list[Case]:
         Case("two unequal masses", (turned, pair), omega / (2 * np.pi)),
         Case("a chain of five", chain(5, 4e3, 2e6), closed(5, 4e3, 2e6)),
     ]
+
+
+def _each_by_itself(mass: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
+    return np.sort(np.sqrt(np.diag(stiffness) / np.diag(mass))) / (2 * np.pi)
+
+
+def _as_if_symmetric(mass: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
+    squares = np.linalg.eigvalsh(np.linalg.solve(mass, stiffness))
+    return np.sqrt(np.abs(squares)) / (2 * np.pi)
 
 
 def _notch_shape() -> list[Case]:
@@ -260,6 +300,11 @@ def _static_moment() -> list[Case]:
     ]
 
 
+def _roof_without_ends(places: np.ndarray, forces: np.ndarray, x: float, span: float) -> np.ndarray:
+    roof = np.where(places <= x, places * (span - x), x * (span - places)) / span
+    return np.sum(forces * roof)
+
+
 def _fixed_point() -> list[Case]:
     def linear(x: float) -> float:
         return -0.6 * x + 4.0
@@ -273,6 +318,19 @@ def _fixed_point() -> list[Case]:
         Case("x = 4 - 0.6 x, from 0", (linear, 0.0), np.array(2.5)),
         Case("two unknowns, from zero", (pair, np.zeros(2)), both),
     ]
+
+
+def _after_many(function: Callable, start: Any) -> Any:
+    for _ in range(200):
+        start = function(start)
+    return start
+
+
+def _until_it_falls(function: Callable, start: Any) -> Any:
+    new = function(start)
+    while np.all(new - start >= 0.0):
+        start, new = new, function(new)
+    return new
 
 
 def _one_force() -> list[Case]:
@@ -305,12 +363,37 @@ def _lever_rule() -> list[Case]:
 
 
 TRIALS = {
-    "frequencies": Trial(_frequencies),
+    "frequencies": Trial(
+        _frequencies,
+        slips=(
+            Slip(
+                _as_if_symmetric,
+                "eigvalsh is for symmetric matrices, and the inverse of M times K is none. Use "
+                "np.linalg.eigvals.",
+            ),
+            Slip(
+                _each_by_itself,
+                "that is each mass by itself: the entries beside the diagonal couple them.",
+            ),
+        ),
+    ),
     "notch_shape": Trial(_notch_shape),
     "condense": Trial(_condensed, ("F_y", "F_z", "M_x", "M_y", "M_z")),
     "rayleigh_coefficients": Trial(_rayleigh_coefficients, ("alpha", "beta")),
-    "static_moment": Trial(_static_moment),
-    "fixed_point": Trial(_fixed_point),
+    "static_moment": Trial(
+        _static_moment,
+        slips=(Slip(_roof_without_ends, "loads off the span count: they must add nothing."),),
+    ),
+    "fixed_point": Trial(
+        _fixed_point,
+        slips=(
+            Slip(
+                _until_it_falls,
+                "it stops at the first change that is negative: compare sizes, np.abs(new - old).",
+            ),
+            Slip(_after_many, "it stops too early: go on until below 1e-10.", within=0.02),
+        ),
+    ),
     "one_force": Trial(_one_force, ("sag", "moment")),
     "lever_rule": Trial(_lever_rule),
 }
