@@ -237,22 +237,22 @@ def _parser() -> argparse.ArgumentParser:
         help="with every answer in its place, the teacher's page and sheets to print",
     )
     copying.set_defaults(edition="reader")
-    marking = add(
+    mark = add(
         "mark",
         _mark,
         "run the notebooks of a class and write a table of marks, a row per student",
         epilog="The notebooks are programs of other people and run with your rights.",
     )
-    marking.add_argument(
+    mark.add_argument(
         "folder", metavar="DIR", help="holds a folder per student with the notebooks in it"
     )
-    marking.add_argument(
+    mark.add_argument(
         "--out", metavar="FILE", required=True, help="the table, a new file that ends in .csv"
     )
-    marking.add_argument(
+    mark.add_argument(
         "--only", metavar="NN", nargs="+", default=[], help="numbers of the notebooks to mark"
     )
-    marking.add_argument(
+    mark.add_argument(
         "--jobs", type=int, default=2, help="how many run at once (default %(default)s)"
     )
     add(
@@ -462,7 +462,7 @@ def _mark(given: argparse.Namespace) -> int:
         raise InputError("--out", given.out, "exists already and is left alone", remedy)
     handed_in = marking.submissions(Path(given.folder), given.only)
     pages = {each.page for each in handed_in}
-    asked = [e for e in exercises().values() if e.name.partition(".")[0] in pages]
+    asked = [e for e in exercises().values() if e.page in pages]
     progress = _Progress(quiet=False)
     rows = marking.marked(handed_in, jobs, progress=progress)
     progress.end()

@@ -182,12 +182,17 @@ class Exercise:
     marks: int = 1
 
     @property
+    def page(self) -> str:
+        """Number of its notebook as in its name, without a leading zero: ``1`` of ``1.2``."""
+        return self.name.partition(".")[0]
+
+    @property
     def variable(self) -> str:
         """The name that its answer bears in the notebook: ``answer_1_2``, ``guess_1``."""
         if isinstance(self.asks, Written):
             return self.asks.function
-        number, _, place = self.name.partition(".")
-        return f"guess_{number}" if place == "guess" else f"answer_{number}_{place}"
+        place = self.name.removeprefix(f"{self.page}.")
+        return f"guess_{self.page}" if place == "guess" else f"answer_{self.page}_{place}"
 
     def reply(self, given: Any) -> Reply:
         """Return what is said of an answer, with what is added to it."""

@@ -111,7 +111,7 @@ def _page(path: Path) -> str:
         return ""
     asked = [name.partition(".")[0] for name in re.findall(r'rb\.check\(\\"([\d.]+)', text)]
     number = asked[0] if asked else str(int(path.stem[:2])) if path.stem[:2].isdigit() else ""
-    return number if any(name.startswith(f"{number}.") for name in exercises()) else ""
+    return number if any(e.page == number for e in exercises().values()) else ""
 
 
 def _name(stem: str) -> str:
@@ -201,7 +201,7 @@ def answers_of(page: str, names: Mapping[str, Any]) -> dict[str, float]:
     names : mapping
         The notebook's variables by name.
     """
-    asked = [e for e in exercises().values() if e.name.startswith(f"{page}.") and e.marks]
+    asked = [e for e in exercises().values() if e.page == page and e.marks]
     replies = {e.name: (e, e.reply(names.get(e.variable))) for e in asked}
     return {
         name: round(e.marks * reply.score, 2) for name, (e, reply) in replies.items() if reply.given

@@ -1,8 +1,9 @@
 """One function per figure: a result and optional axes in, the axes out. Nothing is computed here.
 
 Without axes a function makes a figure of notebook width. It never shows it and changes no settings,
-so figures can be composed: give the axes of ``plt.subplots``; those that move return an
-`Animation` instead. Colours and units are those of `style.QUANTITY_STYLES`: kN, kN m and mm.
+so figures can be composed: give the axes of ``plt.subplots``. Those that move, the four that begin
+with ``animate_``, return an `Animation` instead, and `diagram` returns a drawing of its own.
+Colours and units are those of `style.QUANTITY_STYLES`: kN, kN m and mm.
 ``plt.style.use(rb.plots.STYLE)`` gives a notebook's own drawings the same colours.
 """
 

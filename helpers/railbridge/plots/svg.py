@@ -6,11 +6,13 @@ JupyterLab's dark ground: grey for what is there, blue for what moves, orange fo
 
 from __future__ import annotations
 
-import html
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
 
-__all__ = ["GREY", "MOVES", "PUSHES", "Drawing"]
+import numpy as np
+
+__all__ = ["GREY", "MOVES", "PUSHES", "Drawing", "attributes", "element", "points_text"]
 
 GREY, MOVES, PUSHES = "#737b85", "#3f83c8", "#c4741c"
 SIZE = 16  # px, of words
@@ -39,34 +41,29 @@ class Drawing:
             f'width="{self.width:g}" height="{self.height:g}" role="img" font-size="{SIZE}" '
             'font-family="Helvetica, Arial, sans-serif" fill="none" stroke-linecap="round">'
         )
-        return "\n".join([head, f"<title>{html.escape(self.words)}</title>", *self.parts, "</svg>"])
+        return "\n".join([head, f"<title>{escape(self.words)}</title>", *self.parts, "</svg>"])
 
     def line(
         self, *points: Point, colour: str = GREY, width: float = 1.6, dashed: bool = False
     ) -> None:
         """Draw a line through points."""
-        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-        dash = ' stroke-dasharray="5 5"' if dashed else ""
-        self.parts.append(
-            f'<polyline points="{path}" stroke="{colour}" stroke-width="{width:g}"{dash}/>'
-        )
+        look = {"stroke": colour, "stroke-width": width}
+        if dashed:
+            look["stroke-dasharray"] = "5 5"
+        self.parts.append(element("polyline", points=points_text(points), **look))
 
     def box(self, x: float, y: float, width: float, height: float, colour: str = GREY) -> None:
         """Draw a rectangle with its upper left corner at x, y."""
-        self.parts.append(
-            f'<rect x="{x:g}" y="{y:g}" width="{width:g}" height="{height:g}" rx="3" '
-            f'stroke="{colour}" stroke-width="1.8" fill="{colour}" fill-opacity="0.10"/>'
-        )
+        look = {**_outline(colour), "fill": colour, "fill-opacity": "0.10"}
+        self.parts.append(element("rect", x=x, y=y, width=width, height=height, rx=3, **look))
 
     def circle(self, x: float, y: float, radius: float, colour: str = GREY) -> None:
         """Draw a circle."""
-        self.parts.append(
-            f'<circle cx="{x:g}" cy="{y:g}" r="{radius:g}" stroke="{colour}" stroke-width="1.8"/>'
-        )
+        self.parts.append(element("circle", cx=x, cy=y, r=radius, **_outline(colour)))
 
     def dot(self, x: float, y: float, colour: str = GREY) -> None:
         """Mark a point."""
-        self.parts.append(f'<circle cx="{x:g}" cy="{y:g}" r="3.5" fill="{colour}"/>')
+        self.parts.append(element("circle", cx=x, cy=y, r=3.5, fill=colour))
 
     def arrow(self, start: Point, end: Point, colour: str = GREY, width: float = 1.8) -> None:
         """Draw a line with a head at its end."""
@@ -76,10 +73,8 @@ class Drawing:
     def turn(self, x: float, y: float, radius: float, colour: str = PUSHES) -> None:
         """Draw a couple or a twist, right-handed about an axis that points into the page."""
         r = radius
-        self.parts.append(
-            f'<path d="M {x - r:g} {y:g} A {r:g} {r:g} 0 1 1 {x:g} {y + r:g}" '
-            f'stroke="{colour}" stroke-width="1.8"/>'
-        )
+        arc = f"M {x - r:g} {y:g} A {r:g} {r:g} 0 1 1 {x:g} {y + r:g}"
+        self.parts.append(element("path", d=arc, **_outline(colour)))
         self._head((x + 6, y + r - 2), (x - 3, y + r), colour)
 
     def spring(self, x: float, top: float, bottom: float, half: float = 6.0) -> None:
@@ -115,7 +110,7 @@ class Drawing:
         self, x: float, y: float, words: str, colour: str = GREY, anchor: str = "start"
     ) -> None:
         """Write words from a point on; ``k_s`` is italic with a subscript, as ``2 l_x`` is."""
-        place = f'x="{x:g}" y="{y:g}" fill="{colour}" text-anchor="{anchor}"'
+        place = attributes({"x": x, "y": y, "fill": colour, "text-anchor": anchor})
         self.parts.append(f"<text {place}>{_spans(words)}</text>")
 
     def wheel_set(self, x: float, rail: float, radius: float = 11.0) -> None:
@@ -135,11 +130,14 @@ class Drawing:
         wing = HEAD * 0.38
         corners = [end, (back[0] - wing * uy, back[1] + wing * ux)]
         corners.append((back[0] + wing * uy, back[1] - wing * ux))
-        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in corners)
-        self.parts.append(f'<polygon points="{path}" fill="{colour}"/>')
+        self.parts.append(element("polygon", points=points_text(corners), fill=colour))
 
 
 SYMBOL = re.compile(r"([A-Za-z\u03b1-\u03c9\u0394~]{1,2})_(\w+)|\*(\w+)\*")
+
+
+def _outline(colour: str) -> dict[str, str]:
+    return {"stroke": colour, "stroke-width": "1.8"}
 
 
 def _spans(words: str) -> str:
@@ -153,4 +151,26 @@ def _spans(words: str) -> str:
         small = f'<tspan dy="4" font-size="{SIZE * 0.72:g}">{below}</tspan>{back}'
         return f'<tspan font-style="italic">{base}</tspan>{small}'
 
-    return SYMBOL.sub(written, html.escape(words, quote=False))
+    return SYMBOL.sub(written, escape(words, quote=False))
+
+
+# ---- elements, of diagrams and of moving pictures
+
+
+def attributes(given: Mapping) -> str:
+    """Return the attributes of an element as SVG has them, numbers with six digits."""
+    texts = {
+        name: f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value)
+        for name, value in given.items()
+    }
+    return " ".join(f'{name}="{escape(text)}"' for name, text in texts.items())
+
+
+def element(name: str, **given) -> str:
+    """Return an element by its SVG name and attributes."""
+    return f"<{name} {attributes(given)}/>"
+
+
+def points_text(points: Iterable) -> str:
+    """Return the corners of a line, pairs of px, as SVG has them."""
+    return " ".join(f"{x:.1f},{y:.1f}" for x, y in points)

@@ -10,7 +10,6 @@ from __future__ import annotations
 import hashlib
 import json
 from base64 import b64encode
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
@@ -19,6 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import InputError
+from ..svg import attributes, element, points_text
 
 __all__ = [
     "FEWEST", "INK", "MOST", "WIDTH", "Animation", "Drawing", "attributes", "element",
@@ -104,25 +104,6 @@ class Drawing:
             f"{''.join(self.items)}</svg>"
         )
         return text.encode("ascii", "xmlcharrefreplace").decode("ascii")
-
-
-def attributes(given: Mapping) -> str:
-    """Return the attributes of an element as SVG has them, numbers with six digits."""
-    texts = {
-        name: f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value)
-        for name, value in given.items()
-    }
-    return " ".join(f'{name}="{escape(text)}"' for name, text in texts.items())
-
-
-def element(name: str, **given) -> str:
-    """Return an element by its SVG name and attributes."""
-    return f"<{name} {attributes(given)}/>"
-
-
-def points_text(points: Iterable) -> str:
-    """Return the corners of a line, pairs of px, as SVG has them."""
-    return " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
 
 
 def rounded(values: np.ndarray, digits: int = 1) -> list:
