@@ -127,6 +127,8 @@ def test_each_trial_is_passed_by_a_function_written_here():
         ),
         ("fixed_point", lambda f, x: steps(f, x, lambda change: change < 1e-10), "negative"),
         ("fixed_point", lambda f, x: steps(f, x, lambda change: abs(change) < 1e-3), "too early"),
+        ("fixed_point", lambda f, x: f(x), "after one step"),
+        ("static_moment", lambda a, f, x, L: f * x * (L - x) / L, "is a sum missing"),
         ("condense", lambda *a: "text", "no real numbers"),
         ("fixed_point", lambda f, x: np.nan, "not finite"),
         ("static_moment", lambda *a: 1 / 0, "stops with ZeroDivisionError"),

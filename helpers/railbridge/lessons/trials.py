@@ -138,6 +138,8 @@ def _fault(trial: Trial, case: Case, given: Callable) -> str:
     except (TypeError, ValueError):
         return "what it returns are no real numbers."
     expected = np.asarray(case.expected, dtype=float)
+    if values.shape != expected.shape and values.size == expected.size == 1:
+        return "it returns a list of one number: is a sum missing?"
     if values.shape != expected.shape:
         verb = "is" if expected.size == 1 else "are"
         return f"it returns {_shape(values)}, {_shape(expected)} {verb} expected."
@@ -389,7 +391,8 @@ TRIALS = {
         slips=(
             Slip(
                 _until_it_falls,
-                "it stops at the first change that is negative: compare sizes, np.abs(new - old).",
+                "it stops after one step, or at the first change that is negative. Go on, and compare "
+                "sizes, np.abs(new - old).",
             ),
             Slip(_after_many, "it stops too early: go on until below 1e-10.", within=0.02),
         ),
