@@ -12,7 +12,7 @@ from ..codes.wagons import LINE_CATEGORIES, wagon_train
 from ..errors import InputError, brief, did_you_mean, within
 from ..exchange.tables import Columns, read_columns
 from ..trains import AxleTrain
-from ..units import G, UNITS, per_metre, spelled
+from ..units import UNITS, G, per_metre, spelled
 from . import shelf
 
 __all__ = ["ListedTrain", "TrainList", "read_train", "train", "train_list"]
@@ -76,10 +76,10 @@ def train(
 def _file(source: Any) -> Path:
     """Return the file of a train; refuse a name that is neither a rule's nor a file's."""
     shipped = shelf.data_names("trains", ".csv")
-    if isinstance(source, str) and source.strip() and not shelf.is_path(source):
-        if source not in shipped:
-            near = did_you_mean(source, [*_BY_RULE, *shipped])
-            raise InputError("train", source, "no such train", near)
+    named = isinstance(source, str) and source.strip() and not shelf.is_path(source)
+    if named and source not in shipped:
+        near = did_you_mean(source, [*_BY_RULE, *shipped])
+        raise InputError("train", source, "no such train", near)
     return shelf.data_file("trains", source, ".csv")
 
 

@@ -563,7 +563,8 @@ TABLES = {
     "deck.box": BOX, "box deck": BOX_DECK, "box bearing": PADS, "deck.mesh": MESH,
     "deck.modes": MODES, "modal deck": MODAL_DECK, "deck.damping": RAYLEIGH, "modal damping": MODAL,
     "train": OF_ONE_KIND, "mixed train": MIXED, "train.cars": SEVERAL, "bare train": BARE,
-    "named train": NAMED, "train file": FROM_FILE, "train.notch": NOTCH, "track": TRACK, "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED,
-    "none": LEVEL, "run": RUN, "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
+    "named train": NAMED, "train file": FROM_FILE, "train.notch": NOTCH, "track": TRACK,
+    "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "none": LEVEL, "run": RUN,
+    "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
 }  # fmt: skip
 """Every table by what the pages call it."""

@@ -62,7 +62,7 @@ def hslm_a(name: str) -> AxleTrain:
     The standard asks for HSLM-A on simple spans of 7 m and more and on continuous and complex
     structures, for HSLM-B below 7 m.
     """
-    coaches, length, bogie, force = HSLM_A[errors.choice("name", name, HSLM_A)]
+    coaches, length, bogie, force = HSLM_A[errors.choice("name", errors.text("name", name), HSLM_A)]
     places = list(_places(coaches, length, bogie))
     return AxleTrain(places, [force] * len(places), f"HSLM-{name}")
 

@@ -290,5 +290,5 @@ def load_model(name: str, alpha: float = 1.0) -> LoadModel:
     InputError
         No such model; a factor that the standard does not have.
     """
-    model = LOAD_MODELS[errors.choice("name", name, LOAD_MODELS)]
+    model = LOAD_MODELS[errors.choice("name", errors.text("name", name), LOAD_MODELS)]
     return replace(model, alpha=alpha)

@@ -43,6 +43,7 @@ def wagon_train(category: str, wagons: int = 20) -> AxleTrain:
     ------
     InputError
     """
+    errors.text("category", category)
     mass, inner = LINE_CATEGORIES[errors.choice("category", category, LINE_CATEGORIES)]
     count = WAGONS.checked("wagons", wagons)
     own = (_IN_BOGIE, inner, _IN_BOGIE)
