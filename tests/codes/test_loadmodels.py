@@ -175,6 +175,17 @@ def test_a_track_beside_the_axis_twists():
     assert abs(named.value) > 1e5
 
 
+def test_a_model_of_ones_own_keeps_its_loads_inside_its_pattern():
+    own = LoadModel("mine", places=(0.0, 2.0), force=1e5, span=2.0)
+    found = own.worst(simple(20.0), "moment_vertical", at=10.0)
+    assert found.value == pytest.approx(-1e5 * (20.0 / 4 + 20.0 / 4 - 1.0), rel=1e-6)
+    for wrong in ({"places": (0.0, 2.0)}, {"stretches": ((0.0, 3.0),), "span": 2.0}):
+        with pytest.raises(rb.InputError, match="span = .*: must reach to"):
+            LoadModel("mine", **wrong)
+    with pytest.raises(rb.InputError, match="stretches"):
+        LoadModel("mine", stretches=(3.0,), span=9.0)
+
+
 def test_refusals_and_tables():
     assert isinstance(rb.load_model("LM71"), LoadModel) and rb.LoadModel is LoadModel
     with pytest.raises(rb.InputError, match="Did you mean 'LM71'"):

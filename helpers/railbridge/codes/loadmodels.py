@@ -130,6 +130,11 @@ class LoadModel:
 
     def __post_init__(self) -> None:
         check_fields(self)
+        pairs = [errors.numbers("stretches", pair, count=2) for pair in self.stretches]
+        inside = np.array([*self.places, *np.ravel(pairs)])
+        if np.any(inside < 0.0) or np.any(inside > self.span):
+            remedy = "Forces and stretches stand in the pattern, m behind its front"
+            raise InputError("span", self.span, f"must reach to {inside.max():g} m", remedy)
         if self.alpha not in ALPHAS:
             allowed = "must be one of " + ", ".join(f"{a:g}" for a in ALPHAS)
             raise InputError("alpha", self.alpha, allowed, "These are the factors of EN 1991-2")
@@ -256,7 +261,7 @@ def _largest_at(effect: Callable[[np.ndarray], np.ndarray], places: np.ndarray) 
 
 
 LOAD_MODELS = {
-    # 0.8 m of the pattern before the first and behind the last force: Figure 6.1.
+    # Figure 6.1: the load per metre begins 0.8 m, half a spacing, beside the outer forces.
     "LM71": LoadModel("LM71", places=(0.8, 2.4, 4.0, 5.6), force=250e3, anywhere=80e3, span=6.4),
     "SW/0": LoadModel("SW/0", stretches=((0.0, 15.0), (20.3, 35.3)), pattern_load=133e3, span=35.3),
     "SW/2": LoadModel(
