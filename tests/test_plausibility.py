@@ -420,7 +420,14 @@ def test_shipped_decks_pass_without_a_word(name):
 
 @pytest.mark.parametrize("name", shelf.data_names("vehicles"))
 def test_shipped_vehicles_pass_without_a_word(name):
-    assert doubted(rb.deck("viaduct36"), rb.Train(rb.vehicle(name), 4)) == []
+    car = rb.vehicle(name)
+    train = rb.Train(car, 4, car_spacing=None if car.length else 25.0)
+    assert doubted(rb.deck("viaduct36"), train) == []
+
+
+@pytest.mark.parametrize("name", rb.train_list().names)
+def test_named_trains_pass_without_a_word(name):
+    assert doubted(rb.deck("viaduct36"), rb.train(name), speed=30.0) == []
 
 
 @pytest.mark.parametrize("name", shelf.data_names("cases"))

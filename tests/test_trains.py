@@ -242,6 +242,36 @@ def test_axle_train():
         train.car(1).condensation("condensed")
 
 
+def test_an_axle_train_from_spacings_is_the_one_from_places():
+    loads = [1e5, 2e5, 1e5, 1e5]
+    train = rb.AxleTrain.from_spacings([3.0, 11.0, 2.5], loads, "mine")
+    assert train == rb.AxleTrain([0.0, 3.0, 14.0, 16.5], loads) and train.name == "mine"
+    assert train.weight == 5e5 and rb.AxleTrain.from_spacings([], [1e5]).axles == (0.0,)
+
+
+@pytest.mark.parametrize(
+    ("spacings", "loads", "words"),
+    [
+        ([3.0, 0.0], [1e5] * 3, r"spacings\[2\] = 0.0: must be .* above 0 m"),
+        ([3.0, -1.0], [1e5] * 3, r"spacings\[2\] = -1.0"),
+        ([3.0], [1e5], "loads = .*: must hold 2 numbers, it holds 1. There is one axle more"),
+        ([3.0], [1e5] * 3, "loads = .*: must hold 2 numbers, it holds 3"),
+        (3.0, [1e5] * 2, "spacings = 3.0: must be a list"),
+        ([3.0], [1e5, 0.0], r"loads\[2\] = 0.0"),
+    ],
+)
+def test_spacings_that_make_no_train_are_refused(spacings, loads, words):
+    with pytest.raises(rb.InputError, match=words):
+        rb.AxleTrain.from_spacings(spacings, loads)
+
+
+def test_a_name_is_for_people():
+    named, other = (rb.AxleTrain([0.0, 3.0], [1e5, 1e5], name) for name in ("a", None))
+    assert named == other and hash(named) == hash(other) and "name='a'" in repr(named)
+    with pytest.raises(rb.InputError, match="name = 5: must be a text"):
+        rb.AxleTrain([0.0], [1e5], 5)
+
+
 def test_steady_state_needs_one_wavelength():
     track = rb.Track(
         vertical=rb.Harmonic(5e-3, wavelength=14.4), lateral=rb.Harmonic(5e-3, wavelength=12.0)

@@ -37,14 +37,17 @@ _ROOMS = {
     "boxes": ("Box", "BoxMesh", "Pads"),
     "cases": (
         "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table",
-        "planar_car", "sprung_mass", "summarize", "two_bogie_car", "varied_car", "vehicle",
+        "planar_car", "sprung_mass", "summarize", "train", "train_list", "two_bogie_car",
+        "varied_car", "vehicle",
     ),
+    "codes": ("LoadModel", "hslm_b", "load_model"),
     "lessons": ("check",),
     "validation": ("compared",),
 }  # fmt: skip
 """Names that a room offers here, too."""
 _MODULES = {
     "boxes": "boxes",
+    "codes": "codes",
     "exchange": "exchange",
     "identification": "validation.identification",
     "lessons": "lessons",
@@ -58,12 +61,12 @@ _MODULES = {
 
 __all__ = [
     "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "CONDENSED", "Case", "Crossing",
-    "Deck", "FadeIn", "Harmonic", "History", "InputError", "InputWarning", "Level",
+    "Deck", "FadeIn", "Harmonic", "History", "InputError", "InputWarning", "Level", "LoadModel",
     "NotConvergedError", "Notch", "Pads", "Passage", "Rails", "ResultWarning", "Spectrum", "Spring",
     "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box", "car_parameters", "case",
     "check", "compared", "cross", "data_root", "deck", "deck_from_table", "deviation_percent",
-    "planar_car", "rayleigh", "rayleigh_ratio", "remarks", "sprung_mass", "steady_forces",
-    "summarize", "two_bogie_car", "varied_car", "vehicle",
+    "hslm_b", "load_model", "planar_car", "rayleigh", "rayleigh_ratio", "remarks", "sprung_mass",
+    "steady_forces", "summarize", "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
 ]  # fmt: skip
 
 

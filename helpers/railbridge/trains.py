@@ -12,8 +12,8 @@ the samples) and shifted.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Annotated, Literal
 
@@ -520,12 +520,15 @@ class AxleTrain(AnyTrain):
         m behind the first axle, ascending from 0.
     loads : sequence of float
         N of each axle, down positive.
+    name : str, optional
+        For people; trains of the same axles and loads are equal whatever they are called.
     """
 
     __repr__ = brief
 
     axles: Annotated[tuple[float, ...], Range(least=0.0, unit="m")]
     loads: Annotated[tuple[float, ...], Range(above=0.0, unit="N")]
+    name: str | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -536,6 +539,38 @@ class AxleTrain(AnyTrain):
             allowed = "must ascend from 0, the first axle"
             remedy = "Subtract the first axle's place from all"
             raise InputError("axles", list(self.axles), allowed, remedy)
+
+    @classmethod
+    def from_spacings(
+        cls, spacings: Sequence[float], loads: Sequence[float], name: str | None = None
+    ) -> AxleTrain:
+        """Make a train of the distances between neighbouring axles, as drawings give them.
+
+        Parameters
+        ----------
+        spacings : sequence of float, shape (n - 1,)
+            m from each axle to the next one behind it.
+        loads : sequence of float, shape (n,)
+            N of each axle, down positive.
+        name : str, optional
+
+        Raises
+        ------
+        InputError
+            A spacing that is not above 0, or one number too many or too few.
+        """
+        apart = errors.numbers("spacings", spacings, above=0.0, unit="m")
+        carried = errors.numbers("loads", loads, above=0.0, unit="N")
+        if len(carried) != len(apart) + 1:
+            allowed = f"must hold {len(apart) + 1} numbers, it holds {len(carried)}"
+            remedy = "There is one axle more than there are spacings"
+            raise InputError("loads", list(loads), allowed, remedy)
+        return cls(np.concatenate([[0.0], np.cumsum(apart)]), carried, name)
+
+    @property
+    def weight(self) -> float:
+        """All loads together, N."""
+        return sum(self.loads)
 
     @cached_property
     def formation(self) -> tuple[Car, ...]:

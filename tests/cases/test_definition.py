@@ -142,6 +142,57 @@ def test_trains_of_all_kinds():
     assert isinstance(case.train, rb.AxleTrain) and case.options["track_offset"] == 0.5
 
 
+def test_trains_by_name_and_from_files(tmp_path):
+    def made(**train):
+        return rb.Case(dict(SMALL) | {"train": train})
+
+    case = made(name="HSLM-A1", track=0.5)
+    assert case.train == rb.train("HSLM-A1") and case.options["track_offset"] == 0.5
+    assert made(name="D4", wagons=3).train == rb.train("D4", wagons=3)
+    assert made(name="HSLM-B", n=4, d=3.5).train == rb.hslm_b(4, 3.5)
+    assert case.replace({"train.name": "ICE2"}).train.length == 350.52
+    (tmp_path / "mine.csv").write_text("place (m),load (t)\n0,20\n1.8,20\n", encoding="utf-8")
+    path = tmp_path / "own.toml"
+    content = made(name="ICE2").content | {"train": {"file": "mine.csv"}}
+    deck, run = content["deck"], content["run"]
+    path.write_text("[train]\nfile = 'mine.csv'\n", encoding="utf-8")
+    own = rb.case(path, {"deck": deck, "run": run})  # found beside the case, wherever one is
+    assert own.train.name == "mine" and own.train.loads == (196.2e3, 196.2e3)
+    again: dict = {}
+    exec(own.code(), again)
+    assert again["case"].train == own.train
+    assert np.isfinite(own.summary()["points"][0]["displacement_z"]["min"]["value"])
+
+
+@pytest.mark.parametrize(
+    ("train", "words"),
+    [
+        ({"name": "HSLM-A11"}, "train.name = 'HSLM-A11': no such train. Did you mean 'HSLM-A1'"),
+        ({"name": 5}, "train.name = 5: must be a name"),
+        ({"name": "ICE2", "wagons": 3}, "train.wagons = 3: is the number of wagons of a line"),
+        ({"name": "HSLM-B", "n": 4}, "train.d: is missing.*Figure 6.14"),
+        ({"name": "D4", "wagons": 0}, "train.wagons = 0: must be .* at least 1"),
+        ({"name": "D4", "vehicle": "xia2000"}, "train.vehicle = .* cannot stand beside train.name"),
+        ({"name": "D4", "file": "a.csv"}, "train.file = .* cannot stand beside train.name"),
+        ({"file": "a.csv", "loads": [1]}, "train.loads = .* cannot stand beside train.file"),
+        ({"file": "mine"}, "train.file = 'mine': is no path of a file. Write its ending"),
+        ({"name": "a.csv"}, "train.name = 'a.csv': is the path of a file. Write train.file"),
+        ({"file": "none.csv"}, "train.file = 'none.csv': no such file"),
+    ],
+)
+def test_trains_by_name_that_cannot_be_are_refused(train, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(rb.InputError, match=words):
+        rb.Case(dict(SMALL) | {"train": train})
+
+
+def test_what_is_doubted_of_a_named_train_is_said_of_its_name_or_file(tmp_path):
+    path = tmp_path / "light.csv"
+    path.write_text("place (m),load (N)\n0,220\n3,220\n", encoding="utf-8")
+    (doubt,) = rb.Case(dict(SMALL) | {"train": {"file": str(path)}}).doubts
+    assert doubt.field == "train.file" and "kN" in doubt.text
+
+
 def test_notches():
     notch = {
         "wheels": [[1, 1], [1, 3]],

@@ -181,3 +181,19 @@ def test_binary_rubbish_is_refused_in_words(tmp_path_factory, blob):
             assert "t.csv" in str(error)
         else:
             assert {len(column) for column in table.cells.values()} == {len(table.lines)}
+
+
+def test_units_in_the_header_are_read_where_they_may_stand(tmp_path):
+    path = tmp_path / "u.csv"
+    for header in ("x (mm),note,y [kN s/m]", "x(mm);note;y [ kN s/m ]"):
+        separator = ";" if ";" in header else ","
+        text = "# source: a, b c\n" + header + "\n" + separator.join(["1", "", "2"]) + "\n"
+        path.write_text(text, encoding="utf-8")
+        table = read_columns(path, ["x"], ["y", "note"], units_in_header=True)
+        assert table.column_units == {"x": "mm", "y": "kN s/m"} and table.cells["y"] == ["2"]
+        assert table.notes == {"source": "a, b c"} and table.remarks == {"source": ("a", "b c")}
+        with pytest.raises(rb.InputError, match=r"^u\.csv: "):
+            read_columns(path, ["x"], ["y", "note"])
+    path.write_text("x (mm),x (m)\n1,2\n", encoding="utf-8")
+    with pytest.raises(rb.InputError, match="column x: appears more than once"):
+        read_columns(path, ["x"], units_in_header=True)

@@ -1,5 +1,6 @@
 """Cases as data: files and tables that become trains, decks and tracks, and the command."""
 
+from .axletrains import read_train, train, train_list
 from .cars import planar_car, sprung_mass, two_bogie_car
 from .definition import Case, case
 from .objects import box, car_parameters, deck, deck_from_table, varied_car, vehicle
@@ -8,5 +9,6 @@ from .summary import summarize
 
 __all__ = [
     "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table", "planar_car",
-    "sprung_mass", "summarize", "two_bogie_car", "varied_car", "vehicle",
+    "read_train", "sprung_mass", "summarize", "train", "train_list", "two_bogie_car", "varied_car",
+    "vehicle",
 ]  # fmt: skip

@@ -29,13 +29,14 @@ from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
 from . import copies, pages, shelf, staging
+from .axletrains import train_list
 from .definition import Case, case
 from .summary import histories, to_json
 
 __all__ = ["main"]
 
 FILES = ("points.csv", "wheels.csv", "reactions.csv", "iterations.csv", "summary.json")
-KINDS = ("vehicles", "decks", "cases")
+KINDS = ("vehicles", "trains", "decks", "cases")
 
 DESCRIPTION = """\
 What a train does to a railway bridge: case files in, results out.
@@ -204,8 +205,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     new = add("new", _new, "write a commented case file that runs as it is")
     new.add_argument("file", help="file to write; one that exists is left alone")
-    listing = add("list", _list, "list shipped vehicles, decks and cases")
-    listing.add_argument("kind", nargs="?", choices=KINDS, help="all three if left out")
+    listing = add("list", _list, "list shipped vehicles, trains, decks and cases")
+    listing.add_argument("kind", nargs="?", choices=KINDS, help="all four if left out")
     copying = add(
         "copy-notebooks",
         _copy_notebooks,
@@ -406,6 +407,11 @@ def _write_new(path: Path, text: str) -> None:
 def _list(given: argparse.Namespace) -> int:
     for kind in [given.kind] if given.kind else KINDS:
         print(kind)
+        if kind == "trains":
+            for t in train_list():
+                said = f"{t.axles} axles, {t.length:.4g} m, {t.weight / 1e3:.5g} kN"
+                _tell(f"  {t.name:<20}{said}")
+            continue
         for name in shelf.data_names(kind):
             _tell(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
     return 0

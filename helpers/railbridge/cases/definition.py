@@ -152,8 +152,12 @@ class Case:
     def _words(self) -> dict[str, str]:
         """What this case calls a deck's and a train's fields, by their names in Python."""
         words = {"train.notches": "train.notch"}
-        if "vehicle" not in self.content["train"]:
+        given = self.content["train"]
+        if "vehicle" not in given:
             words["train.vehicle"] = "train.cars"
+        for key in ("name", "file"):
+            if key in given:
+                words |= dict.fromkeys(("train.axles", "train.loads"), f"train.{key}")
         with suppress(InputError):  # a deck file that has gone since
             words |= objects.words_of_deck(self.content["deck"])
         return words
@@ -249,6 +253,7 @@ def _beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
     train, deck = content.get("train"), content.get("deck")
     change(deck, "file")
     change(train, "vehicle")
+    change(train, "file")
     if isinstance(deck, dict):
         content["deck"] = exchange.beside(deck, folder)
     if isinstance(train, dict) and isinstance(train.get("cars"), list):

@@ -25,6 +25,7 @@ from ..tracks import Table as MeasuredTrack
 from ..trains import AnyTrain, AxleTrain, Train
 from ..vehicles import Body, Spring, Vehicle
 from . import shelf, tables
+from .axletrains import train
 from .cars import CAR_PARAMETERS, OPTIONAL_PARAMETERS, two_bogie_car
 from .tabletypes import Table, checked
 
@@ -130,6 +131,8 @@ def _shelved_vehicle(path: str, name: Any) -> Vehicle:
 
 def train_of_case(t: Table) -> AnyTrain:
     """Return the train of a checked ``[train]``."""
+    if isinstance(t, (tables.NAMED, tables.FROM_FILE)):
+        return _axle_train(t)
     if t.has("axles"):
         with within("train"):
             return AxleTrain(t.axles, t.loads)
@@ -152,6 +155,21 @@ def train_of_case(t: Table) -> AnyTrain:
         rolling = {"vehicle": _shelved_vehicle("train.vehicle", t.vehicle), "cars": t.cars}
     with within("train", {"notches": "notch"}):
         return Train(**rolling, car_spacing=t.car_spacing, notches=tuple(notches))
+
+
+def _axle_train(t: Table) -> AnyTrain:
+    """Return the bare axle loads that a ``[train]`` names, or of the file that it names."""
+    key = "name" if isinstance(t, tables.NAMED) else "file"
+    given = getattr(t, key)
+    if key == "file" and isinstance(given, str) and not shelf.is_path(given):
+        remedy = "Write its ending, .csv; what has a name only is train.name"
+        raise InputError("train.file", given, "is no path of a file", remedy)
+    if key == "name" and isinstance(given, str) and shelf.is_path(given):
+        remedy = "Write train.file for the path of a file"
+        raise InputError("train.name", given, "is the path of a file", remedy)
+    options = {name: v for name, v in t.given.items() if name in ("wagons", "n", "d")}
+    with within("train", {"train": key}):
+        return train(given, **options)
 
 
 def track_of_case(t: Table | None) -> Track:

@@ -19,6 +19,8 @@ from ..beams.bearings import STIFFEST as STIFFEST_BEARING
 from ..boxes import Box, BoxMesh, Pads
 from ..boxes.pads import DIRECTIONS
 from ..boxes.pads import STIFFEST as STIFFEST_PAD
+from ..codes.hslm import FORCES, SPACING
+from ..codes.wagons import WAGONS
 from ..decks import RATIO
 from ..errors import InputError, Range, choice, keys
 from ..exchange import ModesTable
@@ -219,12 +221,45 @@ MIXED = table(
 BARE = table(
     "Axles",
     "Bare axle loads, without suspension.",
-    **fields_of(AxleTrain),
+    **fields_of(AxleTrain, omit=("name",)),
+    track=_OWN_TRACK,
+)
+NAMED = table(
+    "NamedTrain",
+    "A train of bare axle loads by its name.",
+    unknown_key=(
+        "cannot stand beside train.name",
+        "The name says all axles; beside it only wagons, n, d and track may stand",
+    ),
+    name=key(
+        NAME,
+        "HSLM-A1 to HSLM-A10 or HSLM-B (EN 1991-2), a line category of EN 15528 (A to E5), or a "
+        "shipped axle list (ICE2); railbridge list trains shows all.",
+        required=True,
+    ),
+    wagons=key(
+        number(**vars(WAGONS)), "Of a line category: number of equal wagons; 20 if left out."
+    ),
+    n=key(number(**vars(FORCES)), "Of HSLM-B: number of forces, Figure 6.14. Needed there."),
+    d=key(number(**vars(SPACING)), "Of HSLM-B: their spacing, m, Figure 6.14. Needed there."),
+    track=_OWN_TRACK,
+)
+FROM_FILE = table(
+    "TrainFile",
+    "A train of bare axle loads from a file.",
+    unknown_key=(
+        "cannot stand beside train.file",
+        "The file says all axles; beside it only track may stand",
+    ),
+    file=key(NAME, "A .csv file of axles beside this one.", required=True),
     track=_OWN_TRACK,
 )
 
 
 def _kind_of_train(value: Any) -> str:
+    for name, kind in (("name", "named"), ("file", "file")):
+        if isinstance(value, dict) and name in value:
+            return kind
     if isinstance(value, dict) and ("axles" in value or "loads" in value):
         return "bare"
     return "mixed" if isinstance(value, dict) and isinstance(value.get("cars"), list) else "cars"
@@ -242,7 +277,10 @@ def _refuse_several_trains(value: Any) -> Any:
 
 
 TRAIN = Annotated[
-    switched(_kind_of_train, {"cars": OF_ONE_KIND, "mixed": MIXED, "bare": BARE}),
+    switched(
+        _kind_of_train,
+        {"cars": OF_ONE_KIND, "mixed": MIXED, "bare": BARE, "named": NAMED, "file": FROM_FILE},
+    ),
     BeforeValidator(_refuse_several_trains),
 ]
 
@@ -525,7 +563,8 @@ TABLES = {
     "deck.box": BOX, "box deck": BOX_DECK, "box bearing": PADS, "deck.mesh": MESH,
     "deck.modes": MODES, "modal deck": MODAL_DECK, "deck.damping": RAYLEIGH, "modal damping": MODAL,
     "train": OF_ONE_KIND, "mixed train": MIXED, "train.cars": SEVERAL, "bare train": BARE,
-    "train.notch": NOTCH, "track": TRACK, "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED,
-    "none": LEVEL, "run": RUN, "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
+    "named train": NAMED, "train file": FROM_FILE, "train.notch": NOTCH, "track": TRACK,
+    "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "none": LEVEL, "run": RUN,
+    "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
 }  # fmt: skip
 """Every table by what the pages call it."""

@@ -6,8 +6,8 @@ import csv
 import io
 import math
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +36,10 @@ class Columns:
         Comments of the form ``# units: mm, t``: the words after the colon by the word before it.
     comma : bool
         Whether numbers have a decimal comma; cells are then separated by semicolons or tabs.
+    column_units : dict of str
+        What the header says of the units of single columns, ``load (kN)``.
+    notes : dict of str
+        The same comments as in `remarks`, as they are written.
     """
 
     __repr__ = brief
@@ -45,6 +49,8 @@ class Columns:
     lines: list[int]
     remarks: dict[str, tuple[str, ...]]
     comma: bool = False
+    column_units: dict[str, str] = field(default_factory=dict)
+    notes: dict[str, str] = field(default_factory=dict)
 
     @property
     def units(self) -> tuple[str, ...] | None:
@@ -104,6 +110,7 @@ def read_columns(
     optional: Sequence[str] = (),
     *,
     may_be_empty: bool = False,
+    units_in_header: bool = False,
 ) -> Columns:
     """Read a CSV file: UTF-8, with a header; lines that start with # are comments.
 
@@ -117,6 +124,8 @@ def read_columns(
         Names of the columns that must and may be there, in any order.
     may_be_empty : bool
         Whether a header without rows will do.
+    units_in_header : bool
+        Whether a column's name may be followed by its unit: ``load (kN)``, ``load [kN]``.
 
     Raises
     ------
@@ -130,9 +139,11 @@ def read_columns(
     except TypeError:
         raise InputError("path", path, "must be the path of a CSV file") from None
     with errors.within(source=path.name):
-        separator = _separator(text, [*required, *optional])
-        rows, remarks = _read(text, separator)
-        header = [cell.strip() for cell in rows[0][1]] if rows else []
+        bare = _without_unit if units_in_header else str
+        separator = _separator(text, [*required, *optional], bare)
+        rows, notes = _read(text, separator)
+        given = [cell.strip() for cell in rows[0][1]] if rows else []
+        header = [bare(cell) for cell in given]
         _check_header(header, required, optional)
         for line, row in rows[1:]:
             if len(row) != len(header):
@@ -145,7 +156,10 @@ def read_columns(
     cells = {h: [row[i].strip() for _, row in rows[1:]] for i, h in enumerate(header)}
     cells = {h: c for h, c in cells.items() if h not in optional or any(c) or not c}
     comma = separator != "," and any(has_decimal_comma(c) for own in cells.values() for c in own)
-    return Columns(path.name, cells, [line for line, _ in rows[1:]], remarks, comma)
+    remarks = {name: _words(said) for name, said in notes.items()}
+    units = {h: _UNIT.fullmatch(g)[2].strip() for h, g in zip(header, given, strict=True) if h != g}
+    lines = [line for line, _ in rows[1:]]
+    return Columns(path.name, cells, lines, remarks, comma, units, notes)
 
 
 _REMEDIES = {
@@ -154,6 +168,15 @@ _REMEDIES = {
     "\t": "Put cells that contain a tab between double quotes",
 }
 """What to try where a row has another number of cells than the header, by what separates them."""
+
+
+_UNIT = re.compile(r"([^()\[\]]*?)\s*[(\[]([^()\[\]]*)[)\]]")
+"""A column's name and its unit in round or square brackets."""
+
+
+def _without_unit(cell: str) -> str:
+    found = _UNIT.fullmatch(cell)
+    return found[1] if found else cell
 
 
 def _is_comment(number: int, line: str) -> bool:
@@ -168,7 +191,7 @@ def _words(value: str) -> tuple[str, ...]:
     return tuple(part.strip() for part in parts if part.strip())
 
 
-def _separator(text: str, known: Sequence[str]) -> str:
+def _separator(text: str, known: Sequence[str], bare: Callable[[str], str] = str) -> str:
     """Return what separates the cells of the header: what makes most columns that are known."""
     header = ""
     for number, line in enumerate(io.StringIO(text), start=1):
@@ -177,17 +200,15 @@ def _separator(text: str, known: Sequence[str]) -> str:
             break
 
     def columns(separator: str) -> int:
-        return sum(cell.strip(' "\n') in known for cell in header.split(separator))
+        return sum(bare(cell.strip(' "\r\n')) in known for cell in header.split(separator))
 
     return max(_REMEDIES, key=columns)
 
 
-def _read(
-    text: str, separator: str
-) -> tuple[list[tuple[int, list[str]]], dict[str, tuple[str, ...]]]:
+def _read(text: str, separator: str) -> tuple[list[tuple[int, list[str]]], dict[str, str]]:
     """Return the rows that are not blank, each with its line, and what comments say."""
     rows: list[tuple[int, list[str]]] = []
-    remarks: dict[str, tuple[str, ...]] = {}
+    notes: dict[str, str] = {}
     start, complete = 1, True
 
     def uncommented() -> Iterator[str]:
@@ -196,7 +217,7 @@ def _read(
             # A cell between quotes may run over several lines, whatever they start with.
             if complete and _is_comment(number, line):
                 key, _, value = line.strip(' "#,;\t\r\n').partition(":")
-                remarks[key.strip().lower()] = _words(value)
+                notes[key.strip().lower()] = value.strip()
                 continue
             if complete:
                 start, complete = number, False
@@ -210,7 +231,7 @@ def _read(
     except csv.Error as error:
         remedy = "Is a double quote not closed, or a cell too long?"
         raise InputError(f"line {start}", None, f"cannot be read ({error})", remedy) from None
-    return rows, remarks
+    return rows, notes
 
 
 def _check_header(header: list[str], required: Sequence[str], optional: Sequence[str]) -> None:
