@@ -161,7 +161,8 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
             raise InputError(name, value, f"must be a {title}", f"Make one with railbridge.{title}")
     errors.keys("", options, [f.name for f in fields(Options)], ["speed"])
     asked = Options(**options)
-    train.formation[0].condensation(asked.loads)
+    if asked.loads != "wheels":
+        train.formation[0].condensation(asked.loads)  # which may refuse
     if asked.excitation == "car":
         _ = [vehicle.front for vehicle, _ in train.kinds()]  # which each of them must have
     step = _time_step(train, deck, track, asked)

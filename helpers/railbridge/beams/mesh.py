@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.linalg import LinAlgError, eigh
@@ -276,6 +277,10 @@ class Mesh:
     @cached_property
     def _factor(self) -> SuperLU:
         return factorised(self._reduced(self.stiffness))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out the factorisation, which cannot be sent to another process; it is made anew."""
+        return {name: value for name, value in vars(self).items() if name != "_factor"}
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """Return the static displacement of all freedoms under a nodal load; the bearings hold."""

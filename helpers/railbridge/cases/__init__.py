@@ -6,6 +6,7 @@ from .definition import Case, case
 from .objects import box, car_parameters, deck, deck_from_table, varied_car, vehicle
 from .shelf import data_root
 from .summary import summarize
+from .sweeping import speed_envelope, sweep
 
 __all__ = [
     "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table", "planar_car",

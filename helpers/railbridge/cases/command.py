@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import shlex
 import sys
 import time
@@ -18,7 +17,7 @@ import tomllib
 import warnings
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, NoReturn, TextIO
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -28,9 +27,10 @@ from ..lessons import exercises, marking
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
-from . import copies, pages, shelf, staging
+from . import copies, pages, shelf, staging, studying
 from .axletrains import train_list
 from .definition import Case, case
+from .speech import note, nowhere, say, tell
 from .summary import histories, to_json
 
 __all__ = ["main"]
@@ -51,6 +51,9 @@ examples:
   railbridge run case.toml --out results     run it; results/summary.json has the numbers
   railbridge run paper --out paper           run a shipped case by its name
   railbridge run case.toml --out fast --set run.speed=30 --set train.cars=4
+  railbridge envelope deck.toml --trains HSLM-A --speeds 150:300:5km/h --out envelope
+                                             the largest response to ten trains over speeds
+  railbridge sweep study.toml --out study    a case over values of any of its keys
   railbridge list                            vehicles, decks and cases that are shipped
   railbridge copy-notebooks my-course        the lessons as copies of your own; done again, it
                                              renews those that are not edited
@@ -81,10 +84,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with staging.stopping():
             return _guarded(arguments)
     except KeyboardInterrupt:
-        _say("interrupted; nothing was written")
+        say("interrupted; nothing was written")
         return 130
     except staging.Stopped as stopped:
-        _say("stopped; nothing was written")
+        say("stopped; nothing was written")
         return 128 + stopped.number
 
 
@@ -95,58 +98,38 @@ def _guarded(arguments: Sequence[str] | None) -> int:
         with np.errstate(all="ignore"), warnings.catch_warnings():
             warnings.simplefilter("once")
             warnings.simplefilter("ignore", RuntimeWarning)
-            warnings.showwarning = lambda message, *_, **__: _say(f"warning: {message}")
+            warnings.showwarning = lambda message, *_, **__: say(f"warning: {message}")
             code = given.command(given)
             sys.stdout.flush()
             return code
     except InputError as error:
-        _say(str(error))
+        say(str(error))
         return 2
     except BrokenPipeError:
-        sys.stdout = _nowhere()  # what is left in it would complain once more at the end
+        sys.stdout = nowhere()  # what is left in it would complain once more at the end
         return 1
     except MemoryError:
-        _say(
+        say(
             "out of memory: use a larger run.time_step, fewer cars, or a shorter run.lead_in "
             "or run.tail"
         )
         return 1
     except OSError as error:
-        _say(f"{error.filename or 'the output'}: {error.strerror or error}")
+        say(f"{error.filename or 'the output'}: {error.strerror or error}")
         if not error.filename:
-            sys.stdout = _nowhere()
+            sys.stdout = nowhere()
         return 1
 
 
 def _open_streams() -> None:
     """Give the program somewhere to write where whoever started it closed its output."""
     if sys.stdout is None:
-        sys.stdout = _nowhere()
+        sys.stdout = nowhere()
     if sys.stderr is None:
-        sys.stderr = _nowhere()
+        sys.stderr = nowhere()
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):  # a terminal that lacks a letter is no reason to stop
             stream.reconfigure(errors="backslashreplace")
-
-
-def _nowhere() -> TextIO:
-    return open(os.devnull, "w", encoding="utf-8")
-
-
-def _say(line: str) -> None:
-    _note("railbridge: " + printable(" ".join(line.split())))
-
-
-def _note(text: str, end: str = "\n") -> None:
-    """Write to stderr; a run is not lost because nobody can read how it went."""
-    try:
-        print(text, end=end, file=sys.stderr, flush=True)
-    except (OSError, ValueError):
-        sys.stderr = _nowhere()
-
-
-def _tell(line: str) -> None:
-    print(printable(line))
 
 
 class _Parser(argparse.ArgumentParser):
@@ -256,6 +239,7 @@ def _parser() -> argparse.ArgumentParser:
     mark.add_argument(
         "--jobs", type=int, default=2, help="how many run at once (default %(default)s)"
     )
+    studying.add_commands(add)
     add(
         "schema",
         _schema,
@@ -295,13 +279,13 @@ def _run(given: argparse.Namespace) -> int:
     progress.end()
     _warn(remark for remark in loaded.remarks(run) if str(remark) not in doubts)
     if code:
-        _say(f"{message} What there is was written to {given.out}.")
+        say(f"{message} What there is was written to {given.out}.")
     elif unsettled(run):
         # Said in words by the remark that was printed as a warning.
         code = 3
-        _say(f"not settled: {_headline(loaded, run)}; written to {given.out}")
+        say(f"not settled: {_headline(loaded, run)}; written to {given.out}")
     elif not given.quiet:
-        _say(f"{_headline(loaded, run)}; written to {given.out}")
+        say(f"{_headline(loaded, run)}; written to {given.out}")
     return code
 
 
@@ -310,7 +294,7 @@ def _said_doubts(loaded: Case, strict: bool) -> set[str]:
     doubts = [remark for remark in loaded.doubts if isinstance(remark, InputWarning)]
     if strict:
         for doubt in doubts:
-            _say(str(doubt))
+            say(str(doubt))
     else:
         _warn(doubts)
     return {str(doubt) for doubt in doubts}
@@ -320,7 +304,7 @@ def _warn(remarks: Iterable[Remark]) -> None:
     """Print a line for every remark that is also warned of."""
     for remark in remarks:
         if remark.warned:
-            _say(f"warning: {remark}")
+            say(f"warning: {remark}")
 
 
 def _headline(loaded: Case, run: Crossing) -> str:
@@ -369,7 +353,7 @@ def _check(given: argparse.Namespace) -> int:
     s = loaded.settings
     seconds = (loaded.deck.length + loaded.train.length) / s.speed + s.tail
     wheels = len(loaded.train.wheels)
-    _tell(
+    tell(
         f"{given.case}: can be run; {wheels} wheels, {seconds:.3g} s in steps of "
         f"{s.time_step:.3g} s, {needed / 1e9:.2g} GB"
     )
@@ -389,7 +373,7 @@ def _new(given: argparse.Namespace) -> int:
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
         raise InputError("file", given.file, f"cannot be written ({why})") from None
-    _tell(f"{given.file} written; run it with: railbridge run {given.file} --out results")
+    tell(f"{given.file} written; run it with: railbridge run {given.file} --out results")
     return 0
 
 
@@ -410,10 +394,10 @@ def _list(given: argparse.Namespace) -> int:
         if kind == "trains":
             for t in train_list():
                 said = f"{t.axles} axles, {t.length:.4g} m, {t.weight / 1e3:.5g} kN"
-                _tell(f"  {t.name:<20}{said}")
+                tell(f"  {t.name:<20}{said}")
             continue
         for name in shelf.data_names(kind):
-            _tell(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
+            tell(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
     return 0
 
 
@@ -441,7 +425,7 @@ def _copy_notebooks(given: argparse.Namespace) -> int:
             copies.place(planned, folder, staged.scratch)
     for copy in planned:
         if copy.action in ("updated", "kept", "replaced"):
-            _tell(
+            tell(
                 f"{copy.action:10}{copy.name}"
                 + f"  (yours is now {copy.backup})" * bool(copy.backup)
             )
@@ -449,13 +433,13 @@ def _copy_notebooks(given: argparse.Namespace) -> int:
         a: sum(c.action == a for c in planned)
         for a in ("copied", "updated", "replaced", "unchanged", "kept")
     }
-    _tell(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
+    tell(f"{given.folder}: " + ", ".join(f"{n} {action}" for action, n in count.items() if n))
     if count["kept"]:
         print(
             "kept: changed since they were copied; --force replaces them and keeps yours "
             "beside under another name"
         )
-    _tell(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
+    tell(f"open them with: python -m jupyterlab {shlex.quote(given.folder)}")
     return 0
 
 
@@ -475,9 +459,9 @@ def _mark(given: argparse.Namespace) -> int:
     _write_new(Path(given.out), marking.table(rows, asked))
     for row in rows:
         for remark in row.remarks:
-            _tell(f"{row.student}: {remark}")
+            tell(f"{row.student}: {remark}")
     read = f"{_count(len(rows), 'student')}, {_count(len(handed_in), 'notebook')}"
-    _tell(f"{read}; written to {given.out}")
+    tell(f"{read}; written to {given.out}")
     return 0
 
 
@@ -503,15 +487,15 @@ class _Progress:
         self.last = now
         line = f"railbridge: {printable(text)}, {now - self.start:.0f} s"
         if terminal:
-            _note("\r" + line.ljust(self.shown), end="")
+            note("\r" + line.ljust(self.shown), end="")
             self.shown = len(line)
         else:
-            _note(line)
+            note(line)
 
     def end(self) -> None:
         """Clear the line."""
         if self.shown:
-            _note("\r" + " " * self.shown + "\r", end="")
+            note("\r" + " " * self.shown + "\r", end="")
             self.shown = 0
 
 

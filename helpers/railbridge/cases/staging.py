@@ -25,7 +25,7 @@ try:
 except ImportError:  # Windows: nobody is told, but everybody has a temporary folder of their own
     fcntl = None
 
-__all__ = ["Staged", "Stopped", "files", "folder", "stopping", "undisturbed"]
+__all__ = ["Staged", "Stopped", "files", "folder", "growing", "stopping", "undisturbed"]
 
 _PREFIX = ".railbridge-"
 _REPLACED = "replaced"
@@ -309,6 +309,27 @@ def _locked(path: Path) -> int | None:
         os.close(handle)
         return None
     return handle
+
+
+@contextmanager
+def growing(out: str, field: str) -> Iterator[Path]:
+    """Give a folder that is written into bit by bit, made if it is not there, to nobody else.
+
+    Raises
+    ------
+    InputError
+        It cannot be made, is a file, or somebody else writes into it.
+    """
+    place = Path(out)
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        raise InputError(field, out, "is a file, must be a folder") from None
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise InputError(field, out, f"cannot be made ({why})") from None
+    with _held(place, field, out):
+        yield place
 
 
 @contextmanager

@@ -391,8 +391,8 @@ TRIALS = {
         slips=(
             Slip(
                 _until_it_falls,
-                "it stops after one step, or at the first change that is negative. Go on, and compare "
-                "sizes, np.abs(new - old).",
+                "it stops after one step, or at the first change that is negative. Go on, and "
+                "compare sizes, np.abs(new - old).",
             ),
             Slip(_after_many, "it stops too early: go on until below 1e-10.", within=0.02),
         ),

@@ -1,0 +1,288 @@
+"""The commands ``railbridge sweep`` and ``railbridge envelope``: many crossings into one folder.
+
+Finished points stand in the folder as they come; the same command goes on where it stopped.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import errors, studies
+from ..codes import HSLM_A
+from ..errors import InputError
+from ..settings import MEMORY_LIMIT
+from . import shelf, staging, sweeping
+from .ranges import written_range
+from .speech import say, tell
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["add_commands"]
+
+SAMPLED = 2
+"""Points that are computed to estimate how long the rest takes."""
+HOURS = 12.0
+FAILED = 3
+"""Exit code where some points have no numbers."""
+STUDY = ("case", "trains", "measure", "points", "over")
+
+
+def add_commands(add: Callable[..., argparse.ArgumentParser]) -> None:
+    """Add both commands to a parser; `add` takes name, function, and what it is about."""
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument(
+        "--out", metavar="DIR", required=True,
+        help="folder for the results; one with finished points is gone on with",
+    )  # fmt: skip
+    common.add_argument(
+        "--dry-run", action="store_true", help="say how many crossings, how long and how large"
+    )
+    common.add_argument(
+        "--workers", type=int, default=1, metavar="N", help="processes (default %(default)s)"
+    )
+    common.add_argument(
+        "--cluster", metavar="ADDRESS", help="a running Dask scheduler, as tcp://host:8786"
+    )
+    common.add_argument(
+        "--chunk", type=int, default=studies.CHUNK, metavar="N",
+        help="points computed together, lost at most when it is stopped (default %(default)s)",
+    )  # fmt: skip
+    common.add_argument(
+        "--hours", type=float, default=HOURS,
+        help="refuse what would take longer (default %(default)g)",
+    )  # fmt: skip
+    common.add_argument("-q", "--quiet", action="store_true", help="no progress; errors only")
+    sweep = add(
+        "sweep", _sweep, "run a case over values of its keys, as a study file says",
+        parents=[common],
+    )  # fmt: skip
+    sweep.add_argument("study", help="a study file (.toml); see docs/studies.md")
+    envelope = add(
+        "envelope", _envelope, "find the largest response of a deck to trains over speeds",
+        parents=[common],
+    )  # fmt: skip
+    envelope.add_argument("deck", help="a deck file, a case file, or the name of a shipped one")
+    envelope.add_argument(
+        "--trains", required=True, metavar="A,B",
+        help="names (railbridge list trains; HSLM-A means all ten) or .csv files",
+    )  # fmt: skip
+    envelope.add_argument(
+        "--speeds", required=True, metavar="RANGE",
+        help="first:last:step, as 150:300:25km/h, or single values; m/s without a unit",
+    )  # fmt: skip
+    envelope.add_argument(
+        "--points", metavar="X,X", help="places along the deck, m; default mid-length"
+    )
+    envelope.add_argument(
+        "--measure", metavar="A,B", default=",".join(studies.QUANTITIES),
+        help="quantities (default %(default)s)",
+    )  # fmt: skip
+
+
+def _sweep(given: argparse.Namespace) -> int:
+    path = Path(given.study)
+    if path.suffix != ".toml":
+        raise InputError("study", given.study, "must end in .toml")
+    found = shelf.read_toml(path, STUDY)
+    with errors.within(source=path.name):
+        errors.keys("", found, STUDY, ["case"])
+        source = found["case"]
+        if isinstance(source, str) and shelf.is_path(source):
+            source = path.parent / source
+        measure = found.get("measure", sweeping.MEASURE)
+        trains = _beside(found.get("trains"), path.parent)
+        plan = sweeping.planned(source, found.get("over", {}), trains, measure, found.get("points"))
+    return _carry_out(given, plan, "sweep", path.stem)
+
+
+def _beside(trains: Any, folder: Path) -> Any:
+    """Make files of trains, relative to the study, paths that can be opened from here."""
+    if isinstance(trains, list):
+        return _named([str(folder / t) if _is_file(t) else t for t in trains])
+    return trains
+
+
+def _is_file(train: Any) -> bool:
+    return isinstance(train, str) and train.endswith(".csv")
+
+
+def _named(trains: list[Any]) -> dict[str, Any]:
+    """Return tables of trains by name, files and families opened."""
+    tables: dict[str, Any] = {}
+    for train in trains:
+        many = list(HSLM_A) if train == "HSLM-A" else [train]
+        for one in many:
+            name = Path(one).stem if _is_file(one) else one
+            if not isinstance(name, str):
+                raise InputError("trains", one, "must be a name or a file")
+            if name in tables:
+                raise InputError("trains", name, "is named twice", "Give each once")
+            tables[name] = {"file": one} if _is_file(one) else {"name": one}
+    return tables
+
+
+def _envelope(given: argparse.Namespace) -> int:
+    speeds = written_range("--speeds", given.speeds, "speed")
+    points = None
+    if given.points is not None:
+        points = written_range("--points", given.points, "length")
+    trains = _named([name.strip() for name in given.trains.split(",") if name.strip()])
+    if not trains:
+        raise InputError("--trains", given.trains, "must name at least one train")
+    measure = [name.strip() for name in given.measure.split(",")]
+    first = next(iter(trains.values()))
+    source = _case_of(given.deck, first, float(speeds[0]) if len(speeds) else 1.0)
+    with errors.within(names={"over[run.speed]": "--speeds"}):
+        over = {"run.speed": speeds.tolist()}
+        plan = sweeping.planned(source, over, trains, measure, points)
+    return _carry_out(given, plan, "envelope", plan.deck.name)
+
+
+def _case_of(name: str, train: dict[str, Any], speed: float) -> Any:
+    """Return a case of a deck file, or the case that a file is."""
+    own = {"train": train, "run": {"speed": speed}}
+    try:
+        path = shelf.data_file("decks", name, ".toml")
+    except InputError as no_deck:
+        try:
+            path = shelf.data_file("cases", name, ".toml")
+        except InputError:
+            raise no_deck from None
+        return sweeping.case(path)
+    if {"deck", "run"} <= shelf.read_toml(path).keys():
+        return sweeping.case(path)
+    return {"deck": {"file": str(path) if shelf.is_path(name) else name}, **own}
+
+
+def _carry_out(given: argparse.Namespace, plan: sweeping.Plan, name: str, title: str) -> int:
+    errors.integer("--workers", given.workers, least=1, most=256)
+    errors.integer("--chunk", given.chunk, least=1, most=100_000)
+    errors.number("--hours", given.hours, above=0.0)
+    needed = _bytes(plan)
+    if needed > MEMORY_LIMIT:
+        allowed = f"the results would need {needed / 1e9:.3g} GB of memory"
+        remedy = "Use fewer points or quantities, or several studies"
+        raise InputError(name, len(plan.points), allowed, remedy)
+    if given.dry_run and not (Path(given.out) / sweeping.STORE).exists():
+        return _with_store(given, plan, name, title, studies.MemoryStore())
+    with staging.growing(given.out, "--out") as folder:
+        return _with_store(given, plan, name, title, plan.store(folder))
+
+
+def _with_store(
+    given: argparse.Namespace, plan: sweeping.Plan, name: str, title: str, store: Any
+) -> int:
+    left = studies.remaining(plan.points, store)
+    varied = " x ".join(f"{len(d.values)} {d.name}" for d in plan.dimensions)
+    total = len(plan.points)
+    try:
+        seconds = _estimate(left, store, given.dry_run)
+        seconds /= 1 if given.cluster else given.workers
+        known = total - len(left)
+        said = f"{total} crossings ({varied})" + f", {known} known already" * bool(known)
+        said += f"; {_bytes(plan) / 1e9:.2g} GB, about {_spoken(seconds)}"
+        if given.dry_run or not given.quiet:
+            tell(said)
+        if seconds > 3600 * given.hours:
+            remedy = f"Use fewer points, more workers, or --hours {np.ceil(seconds / 3600):g}"
+            raise InputError(
+                "--hours", given.hours, f"it would take about {_spoken(seconds)}", remedy
+            )
+        if given.dry_run:
+            return 0
+        found = _computed(given, plan, store)
+    except (KeyboardInterrupt, staging.Stopped) as stop:
+        done = total - len(studies.remaining(plan.points, store))
+        kept = f"{done} of {total} crossings are kept in {given.out}; the same command goes on"
+        say(f"stopped: {kept}")
+        return 130 if isinstance(stop, KeyboardInterrupt) else 128 + stop.number
+    _write(found, given.out, name)
+    failed = [text for text in found.message.values.ravel().tolist() if text]
+    if not given.quiet:
+        tell(f"{title}: {_headline(found)}; written to {given.out}/{name}.nc and {name}.csv")
+    if failed:
+        tell(f"{len(failed)} of {total} crossings have no numbers: {failed[0]} (see 'message')")
+    return FAILED if failed else 0
+
+
+def _bytes(plan: sweeping.Plan) -> float:
+    """Return about how much memory the results need, bytes, besides the program."""
+    return 8.0 * len(plan.columns) * len(plan.points) * 6 + 2e8
+
+
+def _estimate(left: list[studies.Point], store: Any, dry_run: bool) -> float:
+    """Return about how long the rest takes, s, from two of its points."""
+    if not left:
+        return 0.0
+    chosen = [left[0], left[len(left) // 2]][: min(SAMPLED, len(left))]
+    start = time.perf_counter()
+    rows = sweeping.Task()([point.task for point in chosen])
+    each = (time.perf_counter() - start) / len(chosen)
+    if not dry_run:
+        store.add([point.key for point in chosen], rows)
+    return each * len(left)
+
+
+def _computed(given: argparse.Namespace, plan: sweeping.Plan, store: Any) -> xr.Dataset:
+    from tqdm import tqdm
+
+    client = None
+    if given.cluster:
+        from distributed import Client
+
+        try:
+            client = Client(given.cluster, timeout=10)
+        except (OSError, ValueError) as error:
+            allowed = f"no scheduler answers there ({error})"
+            raise InputError("--cluster", given.cluster, allowed) from None
+    try:
+        with tqdm(total=0, unit="crossing", disable=given.quiet, leave=False) as bar:
+
+            def progress(done: int, of: int) -> None:
+                bar.total = of
+                bar.n = done
+                bar.refresh()
+
+            options = {"chunk": given.chunk, "workers": given.workers, "client": client}
+            return plan.carried_out(store, progress=progress, **options)
+    finally:
+        if client is not None:
+            client.close()
+
+
+def _write(found: xr.Dataset, out: str, name: str) -> None:
+    folder = Path(out)
+    parts = [folder / f".{name}.nc", folder / f".{name}.csv"]
+    found.to_netcdf(parts[0])
+    studies.table(found).to_csv(parts[1], index=False, float_format="%.9g")
+    with staging.undisturbed():
+        for part in parts:
+            part.replace(folder / part.name[1:])
+
+
+def _headline(found: xr.Dataset) -> str:
+    """Return where the first quantity is largest."""
+    name = next(iter(found.data_vars))
+    values = found[name].values
+    if not np.isfinite(values).any():
+        return "no numbers"
+    place = np.unravel_index(np.nanargmax(values), values.shape)
+    where = []
+    for dim, i in zip(found[name].dims, place, strict=True):
+        value = found[dim].values[i]
+        where.append(f"{dim} {value:g}" if found[dim].dtype.kind == "f" else str(value))
+    unit = found[name].attrs.get("units", "")
+    return f"{name} is largest, {values[place]:.4g} {unit}, at {', '.join(where)}"
+
+
+def _spoken(seconds: float) -> str:
+    if seconds < 90:
+        return f"{max(seconds, 1):.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"

@@ -1,0 +1,353 @@
+"""Sweeps: one case over values of its keys, and over trains."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import errors, studies
+from ..decks import Deck
+from ..errors import InputError
+from ..results import Crossing
+from ..studies import Asked, Dimension, Job, Point, Row
+from ..trains import AnyTrain
+from .definition import Case, case
+from .ranges import values_of
+from .summary import summarize
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["Plan", "planned", "speed_envelope", "sweep"]
+
+STORE = "points.zarr"
+"""What a study keeps its finished points in, inside its folder."""
+MEASURE = ("displacement_z", "acceleration_z")
+
+
+@dataclass(frozen=True)
+class FromSummary:
+    """A number of the summary by its path: ``points[0].torsion.max.value``."""
+
+    path: str
+    points: tuple[float, ...]
+
+    def __call__(self, run: Crossing) -> float:
+        place: Any = summarize(run, self.points, ())
+        for name in self.path.replace("[", ".").replace("]", "").split("."):
+            if isinstance(place, dict) and name not in place:
+                remedy = errors.did_you_mean(name, place)
+                raise InputError("measure", self.path, "is no path of the summary", remedy)
+            try:
+                place = place[int(name)] if isinstance(place, list) else place[name]
+            except (IndexError, ValueError, TypeError):
+                allowed = f"leads nowhere at '{name}'"
+                raise InputError("measure", self.path, allowed) from None
+        if place is None:
+            return np.nan
+        if isinstance(place, bool) or not isinstance(place, (int, float)):
+            raise InputError("measure", self.path, "must lead to a number")
+        return float(place)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A study that is checked and not yet carried out.
+
+    Attributes
+    ----------
+    dimensions : tuple of Dimension
+    points : tuple of Point
+        The last dimension fastest.
+    asked : Asked
+        Names of what is kept; the modal part is that of the first deck.
+    trains : dict
+        By name, where there are several.
+    deck : Deck
+        Of the case as it is.
+    title : str
+    """
+
+    dimensions: tuple[Dimension, ...]
+    points: tuple[Point, ...]
+    asked: Asked
+    trains: dict[str, AnyTrain]
+    deck: Deck
+    title: str
+
+    @property
+    def columns(self) -> list[str]:
+        """What the numbers of a row are."""
+        outputs = [f"{o.quantity} at {o.x:g} m" for o in self.asked.outputs]
+        six = ("low", "high", "low time", "high time", "static low", "static high")
+        own = [f"{output}, {kind}" for kind in six for output in outputs]
+        return [*own, *self.asked.numbers, *self.asked.more]
+
+    def store(self, folder: str | Path) -> studies.Store:
+        """Open or make the store of this plan in a folder."""
+        return studies.Store(Path(folder) / STORE, self.columns)
+
+    def carried_out(self, store: Any = None, **options: Any) -> xr.Dataset:
+        """Compute what is missing and return all; options as for `studies.carry_out`."""
+        rows = studies.carry_out(
+            self.points, Task(), studies.MemoryStore() if store is None else store, **options
+        )
+        found = studies.dataset(self.dimensions, self.asked, rows, {"title": self.title})
+        if [d.name for d in self.dimensions] == ["train", "speed"] and self.trains:
+            found = studies.signature(found, self.deck, self.trains)
+        return found
+
+
+@dataclass(frozen=True)
+class Task:
+    """The task of a chunk: crossings of one or several decks."""
+
+    def __call__(self, tasks: Sequence[tuple[Deck, Asked, Job]]) -> list[Row]:
+        rows: list[Row | None] = [None] * len(tasks)
+        decks = dict.fromkeys(id(deck) for deck, _, _ in tasks)
+        for number in decks:
+            own = [i for i, (deck, _, _) in enumerate(tasks) if id(deck) == number]
+            deck, asked, _ = tasks[own[0]]
+            for i, row in zip(
+                own, studies.respond(deck, [tasks[i][2] for i in own], asked), strict=True
+            ):
+                rows[i] = row
+        return rows
+
+
+def planned(
+    source: Case | str | Path | Mapping[str, Any],
+    over: Mapping[str, Any],
+    trains: Sequence[Any] | Mapping[str, Any] | None = None,
+    measure: Sequence[str] = MEASURE,
+    points: Sequence[float] | None = None,
+) -> Plan:
+    """Check a study and list its points; see `sweep`."""
+    base = source if isinstance(source, Case) else case(source)
+    if not isinstance(over, Mapping):
+        remedy = 'For instance {"run.speed": [20.0, 30.0]}'
+        raise InputError("over", over, "must be a table of values by path", remedy)
+    by_path = {path: values_of(f"over[{path}]", given) for path, given in over.items()}
+    named = trains_of_case(trains)
+    for path in by_path:
+        if named and path.split(".")[0] == "train":
+            raise InputError("over", path, "a key of the train, and trains are given too")
+    dimensions = [Dimension("train", list(named))] if named else []
+    dimensions += [_dimension(path, values, by_path) for path, values in by_path.items()]
+    if not dimensions:
+        raise InputError("over", dict(over), "nothing varies", "Give keys with values, or trains")
+    total = int(np.prod([len(d.values) for d in dimensions]))
+    if total > 1_000_000:
+        allowed = f"{total} crossings, at most a million in one study"
+        raise InputError("over", None, allowed, "Use fewer values, or several studies")
+    ways = [{"train": table} for table in named.values()] or [{}]
+    cases = _Cases(base, ways, by_path)
+    cases.check_each()
+    quantities, numbers, paths = _sorted_measures(measure)
+    found: list[Point] = []
+    asked_by_deck: dict[int, Asked] = {}
+    made_trains: dict[str, AnyTrain] = {}
+    keys: dict[int, str] = {}
+    kept: list[Any] = []  # so that no id is used twice
+
+    def key_of(thing: Any, make: Callable[[Any], str]) -> str:
+        if id(thing) not in keys:
+            keys[id(thing)] = make(thing)
+            kept.append(thing)
+        return keys[id(thing)]
+
+    for way, values in itertools.product(range(len(ways)), itertools.product(*by_path.values())):
+        try:
+            own = cases.at(way, values)
+            asked = _asked(own, quantities, numbers, paths, points, asked_by_deck)
+        except InputError as error:
+            found.append(Point("", refusal=str(error)))
+            continue
+        if named:
+            made_trains.setdefault(list(named)[way], own.train)
+        deck_key = key_of(own.deck, lambda deck, a=asked: studies.print_of_deck(deck, a))
+        parts = key_of(own.train, studies.fingerprint), key_of(own.track, studies.fingerprint)
+        key = studies.fingerprint(deck_key, *parts, own.settings)
+        found.append(Point(key, (own.deck, asked, Job(own.train, own.track, own.settings))))
+    if not asked_by_deck:
+        raise InputError("over", None, found[0].refusal)
+    asked = next(iter(asked_by_deck.values()))
+    title = " x ".join(f"{len(d.values)} {d.name}" for d in dimensions)
+    return Plan(tuple(dimensions), tuple(found), asked, made_trains, base.deck, title)
+
+
+class _Cases:
+    """Cases of a study; deck, train and track are made once for all that share them."""
+
+    def __init__(
+        self, base: Case, ways: Sequence[dict[str, Any]], by_path: Mapping[str, list[Any]]
+    ) -> None:
+        self.base, self.ways, self.by_path = base, ways, by_path
+        self._known: dict[tuple, Case] = {}
+        # What costs most is changed first.
+        order = {"deck": 0, "train": 1, "track": 2}
+        self._paths = sorted(by_path, key=lambda path: order.get(path.split(".")[0], 3))
+
+    def at(self, way: int, values: Sequence[Any]) -> Case:
+        """Return the case of a point."""
+        own = dict(zip(self.by_path, values, strict=True))
+        place: tuple = (way,)
+        current = self._made(place, self.base, self.ways[way])
+        for section, paths in itertools.groupby(self._paths, lambda path: path.split(".")[0]):
+            changes = {path: own[path] for path in paths}
+            if section in ("deck", "train", "track"):
+                place += tuple(repr(value) for value in changes.values())
+                current = self._made((section, *place), current, changes)
+            else:
+                current = current.replace(changes)
+        return current
+
+    def _made(self, place: tuple, current: Case, changes: dict[str, Any]) -> Case:
+        if place not in self._known:
+            self._known[place] = current.replace(changes) if changes else current
+        return self._known[place]
+
+    def check_each(self) -> None:
+        """Refuse a value that the case would refuse by itself, before any work starts."""
+        for way in self.ways:
+            with errors.within(names={}):
+                _ = self.base.replace(way) if way else None
+        for path, values in self.by_path.items():
+            for value in values:
+                try:
+                    self.base.replace({path: value})
+                except InputError as error:
+                    if error.field == path or len(values) == 1 or path not in str(error):
+                        raise
+
+
+def _dimension(path: str, values: list[Any], by_path: Mapping[str, Any]) -> Dimension:
+    last = path.split(".")[-1]
+    alone = sum(other.split(".")[-1] == last for other in by_path) == 1
+    known = {"speed": "m/s", "wavelength": "m", "amplitude": "m", "mass": "kg/m", "length": "m"}
+    plain = alone and last not in ("x", "train", "message")
+    return Dimension(last if plain else path, values, known.get(last, ""), path)
+
+
+def trains_of_case(trains: Any) -> dict[str, dict[str, Any]]:
+    """Return tables of trains by name, as a case has them under ``train``."""
+    if trains is None:
+        return {}
+    if isinstance(trains, (str, Mapping)) and not (
+        isinstance(trains, Mapping) and all(isinstance(t, Mapping) for t in trains.values())
+    ):
+        trains = [trains]
+    if not isinstance(trains, Mapping):
+        names: dict[str, Any] = {}
+        for i, train in enumerate(trains, 1):
+            name = train if isinstance(train, str) else f"train {i}"
+            if name in names:
+                raise InputError("trains", name, "is named twice", "Give each once")
+            names[name] = {"name": train} if isinstance(train, str) else train
+        trains = names
+    if not trains:
+        raise InputError("trains", trains, "must name at least one train")
+    return {
+        name: dict(errors.instance(f"trains[{name}]", train, Mapping))
+        for name, train in trains.items()
+    }
+
+
+def _sorted_measures(measure: Sequence[str]) -> tuple[list[str], list[str], list[str]]:
+    """Return quantities at places, numbers of a crossing, and paths of the summary."""
+    measure = [measure] if isinstance(measure, str) else list(measure)
+    quantities, numbers, paths = [], [], []
+    for name in measure:
+        if name in studies.OUTPUTS:
+            quantities.append(name)
+        elif name in studies.NUMBERS:
+            numbers.append(name)
+        elif isinstance(name, str) and ("." in name or "[" in name):
+            paths.append(name)
+        else:
+            errors.choice("measure", name, [*studies.OUTPUTS, *studies.NUMBERS])
+    return quantities, numbers, paths
+
+
+def _asked(
+    own: Case, quantities: list[str], numbers: list[str], paths: list[str],
+    points: Sequence[float] | None, known: dict[int, Asked],
+) -> Asked:  # fmt: skip
+    if id(own.deck) not in known:
+        places = own.points if points is None else points
+        outputs = studies.outputs_at(own.deck, quantities, places) if quantities else ()
+        summary_points = tuple(errors.places("points", places, (0.0, own.deck.length)).tolist())
+        more = {path: FromSummary(path, summary_points) for path in paths}
+        known[id(own.deck)] = Asked(tuple(outputs), tuple(numbers), more)
+    return known[id(own.deck)]
+
+
+def sweep(
+    source: Case | str | Path | Mapping[str, Any],
+    over: Mapping[str, Any],
+    trains: Sequence[Any] | Mapping[str, Any] | None = None,
+    measure: Sequence[str] = MEASURE,
+    points: Sequence[float] | None = None,
+    *,
+    out: str | Path | None = None,
+    chunk: int = studies.CHUNK,
+    workers: int = 1,
+    client: Any = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> xr.Dataset:
+    """Run one case over values of its keys, and over trains.
+
+    Parameters
+    ----------
+    source : Case, or what `case` takes
+    over : mapping
+        Values by path: ``{"run.speed": [20.0, 30.0]}``; also ``{"from": 20.0, "to": 80.0, "step":
+        2.0}`` or with ``count``. Any key of the case.
+    trains : sequence of names, or mapping of train tables by name, optional
+        Instead of the case's own train.
+    measure : sequence of str
+        Quantities at `points` (`studies.OUTPUTS`), numbers of a crossing (`studies.NUMBERS`), or
+        paths of its summary, as ``points[0].torsion.max.value``.
+    points : sequence of float, optional
+        Places along the deck, m; default those of the case.
+    out : path, optional
+        A folder in which finished points are kept as they come, and found again.
+    chunk : int
+        Points computed together, and lost at most when the program is stopped.
+    workers : int
+        Processes on this machine.
+    client : distributed.Client, optional
+        A cluster.
+    progress : function of (done, of how many), optional
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions bear the last part of their path, ``speed``; see `studies.dataset`.
+
+    Raises
+    ------
+    InputError
+        Before anything is computed. A point that fails is NaN, with its reason in ``message``.
+    """
+    plan = planned(source, over, trains, measure, points)
+    options = {"chunk": chunk, "workers": workers, "client": client, "progress": progress}
+    return plan.carried_out(None if out is None else plan.store(out), **options)
+
+
+def speed_envelope(
+    deck: Deck | str | Path, trains: Any, speeds: Sequence[float], *arguments: Any, **options: Any
+) -> xr.Dataset:
+    """Return the largest response of a deck to trains over speeds.
+
+    As `studies.speed_envelope`, with names or files where it wants decks and trains.
+    """
+    from .objects import deck as load_deck
+
+    made = deck if isinstance(deck, Deck) else load_deck(deck)
+    return studies.speed_envelope(made, trains, speeds, *arguments, **options)

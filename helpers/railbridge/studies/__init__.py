@@ -1,0 +1,20 @@
+"""Many crossings: speed envelopes, sweeps over any key of a case, on one machine or on a cluster.
+
+Labelled arrays need the extra ``study`` (xarray); results on disk need zarr, clusters distributed.
+"""
+
+from .datasets import Dimension, dataset, table
+from .engine import NUMBERS, Asked, Job, Row, asked_of, respond
+from .envelopes import QUANTITIES, checked_speeds, named_trains, signature, speed_envelope
+from .fingerprints import fingerprint, print_of_deck
+from .outputs import OUTPUTS, outputs_at
+from .resonance import repeated_distance, residual_acceleration, resonance_speeds
+from .store import MemoryStore, Store
+from .study import CHUNK, Point, carry_out, remaining
+
+__all__ = [
+    "Asked", "CHUNK", "Dimension", "Job", "MemoryStore", "NUMBERS", "OUTPUTS", "Point",
+    "QUANTITIES", "Row", "Store", "asked_of", "carry_out", "checked_speeds", "dataset",
+    "fingerprint", "named_trains", "outputs_at", "print_of_deck", "remaining", "repeated_distance",
+    "residual_acceleration", "resonance_speeds", "respond", "signature", "speed_envelope", "table",
+]  # fmt: skip

@@ -1,0 +1,184 @@
+"""Crossings of one study on one deck: the same question to each, by the fastest way there is.
+
+Constant loads need no train and no passes (`constant`); all others are computed one by one, as
+`crossing.cross` computes them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .. import errors
+from ..crossing import NotConvergedError, compute
+from ..decks import Deck
+from ..errors import InputError
+from ..results import Crossing
+from ..settings import Settings
+from ..tracks import Track
+from ..trains import AnyTrain, AxleTrain
+from .constant import constant_loads
+from .outputs import Output, Peaks, peaks_of_run
+
+__all__ = ["NUMBERS", "Asked", "Job", "Row", "asked_of", "respond"]
+
+
+def _unloading(run: Crossing) -> float:
+    return float(np.nanmax(run.wheel_unloading))
+
+
+def _heaviest(run: Crossing) -> float:
+    return float(-run.wheel_forces[:, 1].min())
+
+
+def _deviation(run: Crossing) -> float:
+    return float(run.deviations.from_rigid[-1]) if run.iterations else np.nan
+
+
+NUMBERS: dict[str, tuple[str, str, Callable[[Crossing], float]]] = {
+    "wheel_unloading": ("-", "largest 1 - force / static force of a wheel", _unloading),
+    "wheel_force_z": ("N", "largest vertical force of a wheel, static part included", _heaviest),
+    "deviation_from_rigid": ("%", "Eq. 3 of the last pass against the rigid deck", _deviation),
+    "iterations": ("-", "passes after the rigid deck", lambda run: float(run.iterations)),
+}
+"""What a study can be asked for of a whole crossing: unit, meaning, and how a run is asked."""
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """What is kept of every crossing.
+
+    Attributes
+    ----------
+    outputs : tuple of Output
+    numbers : tuple of str
+        Some of `NUMBERS`.
+    more : dict of callable
+        Further numbers by name, each from a run.
+    """
+
+    outputs: tuple[Output, ...]
+    numbers: tuple[str, ...] = ()
+    more: Mapping[str, Callable[[Crossing], float]] = field(default_factory=dict)
+
+    @property
+    def width(self) -> int:
+        """Numbers in a row."""
+        return len(_PEAKS) * len(self.outputs) + len(self.numbers) + len(self.more)
+
+
+_PEAKS = ("low", "high", "low_time", "high_time", "static_low", "static_high")
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """One crossing that is asked for; its settings are checked.
+
+    Attributes
+    ----------
+    train : AnyTrain
+    track : Track
+    settings : Settings
+    """
+
+    train: AnyTrain
+    track: Track
+    settings: Settings
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """What one crossing gave.
+
+    Attributes
+    ----------
+    values : ndarray, shape (width,)
+        The six of `Peaks` for each output, then the numbers; NaN where it failed.
+    message : str
+        Why it failed; empty if it did not.
+    """
+
+    values: np.ndarray
+    message: str = ""
+
+    @classmethod
+    def failed(cls, asked: Asked, message: str) -> Row:
+        """Return a row of NaN with the reason."""
+        return cls(np.full(asked.width, np.nan), message)
+
+    def peaks(self, asked: Asked) -> Peaks:
+        """Return the peaks of one crossing, arrays of shape (1, outputs)."""
+        found = self.values[: len(_PEAKS) * len(asked.outputs)].reshape(len(_PEAKS), 1, -1)
+        return Peaks(*found)
+
+    def numbers(self, asked: Asked) -> dict[str, float]:
+        """Return the numbers by name."""
+        names = (*asked.numbers, *asked.more)
+        return dict(zip(names, self.values[len(self.values) - len(names) :], strict=True))
+
+
+def asked_of(outputs: Sequence[Output], numbers: Sequence[str] = ()) -> Asked:
+    """Return what is asked, refused where a number is unknown."""
+    for name in numbers:
+        errors.choice("measure", name, NUMBERS)
+    return Asked(tuple(outputs), tuple(numbers))
+
+
+def respond(deck: Deck, jobs: Sequence[Job], asked: Asked) -> list[Row]:
+    """Compute crossings of one deck; one that fails gives a row with its message.
+
+    Parameters
+    ----------
+    deck : Deck
+    jobs : sequence of Job
+    asked : Asked
+
+    Returns
+    -------
+    list of Row, in the order of the jobs
+    """
+    rows: list[Row | None] = [None] * len(jobs)
+    constant: dict[tuple, list[int]] = {}
+    for i, job in enumerate(jobs):
+        if isinstance(job.train, AxleTrain) and not asked.more:
+            s = job.settings
+            constant.setdefault((id(job.train), s.track_offset, s.tail), []).append(i)
+        else:
+            rows[i] = _one(deck, job, asked)
+    for (_, offset, tail), own in constant.items():
+        train, speeds = jobs[own[0]].train, [jobs[i].settings.speed for i in own]
+        peaks = constant_loads(deck, train, speeds, asked.outputs, track_offset=offset, tail=tail)
+        heaviest = max(axle.static_load for axle in train.placed_axles)
+        known = {
+            "wheel_unloading": 0.0, "wheel_force_z": heaviest, "deviation_from_rigid": 0.0,
+            "iterations": 0.0,
+        }  # fmt: skip
+        numbers = np.array([known[name] for name in asked.numbers])
+        for n, i in enumerate(own):
+            values = [getattr(peaks, name)[n] for name in _PEAKS]
+            rows[i] = Row(np.concatenate([*values, numbers]))
+    return rows
+
+
+def _one(deck: Deck, job: Job, asked: Asked) -> Row:
+    try:
+        run = compute(job.train, deck, job.track, job.settings)
+    except (NotConvergedError, InputError) as error:
+        return Row.failed(asked, str(error))
+    except (ArithmeticError, np.linalg.LinAlgError, MemoryError) as error:
+        return Row.failed(asked, f"{type(error).__name__}: {error}")
+    return row_of_run(run, asked)
+
+
+def row_of_run(run: Crossing, asked: Asked) -> Row:
+    """Return what is asked of a crossing that is computed already."""
+    peaks = peaks_of_run(run, asked.outputs)
+    values = [getattr(peaks, name)[0] for name in _PEAKS]
+    numbers = [NUMBERS[name][2](run) for name in asked.numbers]
+    numbers += [float(take(run)) for take in asked.more.values()]
+    row = np.concatenate([*values, np.array(numbers, dtype=float)])
+    if not np.isfinite(row[: 4 * len(asked.outputs)]).all():
+        return Row.failed(asked, "the crossing gave numbers that are not finite")
+    return Row(row)

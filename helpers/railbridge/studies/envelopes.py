@@ -1,0 +1,172 @@
+"""The commonest question of all: what do these trains do to this deck at these speeds?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import errors
+from ..decks import Deck
+from ..errors import InputError
+from ..settings import check
+from ..tracks import Track
+from ..trains import AnyTrain
+from .datasets import Dimension, dataset
+from .engine import Asked, Job, Row, asked_of, respond
+from .fingerprints import fingerprint, print_of_deck
+from .outputs import outputs_at
+from .resonance import repeated_distance, residual_acceleration
+from .study import CHUNK, MemoryStore, Point, Store, carry_out
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["QUANTITIES", "OnDeck", "named_trains", "signature", "speed_envelope"]
+
+QUANTITIES = ("displacement_z", "acceleration_z", "moment_vertical")
+"""What an envelope is asked for if nothing else is."""
+
+
+@dataclass(frozen=True, eq=False)
+class OnDeck:
+    """The task of a chunk: crossings of one deck."""
+
+    deck: Deck
+    asked: Asked
+
+    def __call__(self, jobs: Sequence[Job]) -> list[Row]:
+        return respond(self.deck, jobs, self.asked)
+
+
+def named_trains(trains: Any) -> dict[str, AnyTrain]:
+    """Return trains by name: a mapping, one train, or several, which are then numbered."""
+    if isinstance(trains, AnyTrain):
+        trains = [trains]
+    if not isinstance(trains, Mapping):
+        trains = errors.instance("trains", trains, (list, tuple))
+        names = [getattr(train, "name", "") or f"train {i}" for i, train in enumerate(trains, 1)]
+        for name in names:
+            if names.count(name) > 1:
+                raise InputError("trains", name, "is there twice", "Give {name: train, ...}")
+        trains = dict(zip(names, trains, strict=True))
+    if not trains:
+        raise InputError("trains", trains, "must hold at least one train")
+    for name, train in trains.items():
+        if not isinstance(train, AnyTrain):
+            raise InputError(f"trains[{name}]", train, "must be a Train or an AxleTrain")
+    return dict(trains)
+
+
+def checked_speeds(speeds: Any) -> np.ndarray:
+    """Return speeds in m/s, ascending and each once.
+
+    Raises
+    ------
+    InputError
+        None, not ascending, or not positive.
+    """
+    found = errors.numbers("speeds", speeds, above=0.0, most=200.0, unit="m/s")
+    if not len(found):
+        raise InputError("speeds", list(found), "must hold at least one speed, m/s")
+    if np.any(np.diff(found) <= 0.0):
+        raise InputError("speeds", list(found), "must ascend", "Sort them, each once")
+    return found
+
+
+def speed_envelope(
+    deck: Deck,
+    trains: Any,
+    speeds: Sequence[float],
+    points: Sequence[float] | None = None,
+    quantities: Sequence[str] = QUANTITIES,
+    *,
+    track: Track | None = None,
+    numbers: Sequence[str] = (),
+    store: Store | None = None,
+    chunk: int = CHUNK,
+    workers: int = 1,
+    client: Any = None,
+    progress: Callable[[int, int], None] | None = None,
+    **options: Any,
+) -> xr.Dataset:
+    """Return the largest response of a deck to trains over speeds.
+
+    Parameters
+    ----------
+    deck : Deck
+    trains : mapping of trains by name, one train, or several
+    speeds : sequence of float
+        m/s, ascending.
+    points : sequence of float, optional
+        Places along the deck, m; default mid-length.
+    quantities : sequence of str
+        Some of `OUTPUTS`.
+    track : Track, optional
+        Level if not given; constant loads do not feel it.
+    numbers : sequence of str
+        Some of `NUMBERS`.
+    store : Store, optional
+        Where finished points are kept and found again.
+    chunk, workers, client, progress
+        See `carry_out`.
+    **options
+        As for `cross`, without the speed.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``train``, ``speed`` (m/s) and ``x`` (m); see `datasets.dataset`. ``signature``: the
+        bound of the residual influence line, where it applies; ``distance``: at which the axles of
+        a train repeat, m.
+
+    Raises
+    ------
+    InputError
+        Before anything is computed. A single crossing that fails is NaN, with its message.
+    """
+    deck = errors.instance("deck", deck, Deck)
+    by_name = named_trains(trains)
+    speeds = checked_speeds(speeds)
+    points = [deck.length / 2] if points is None else points
+    asked = asked_of(outputs_at(deck, quantities, points), numbers)
+    track = Track() if track is None else errors.instance("track", track, Track)
+    if "speed" in options:
+        raise InputError("speed", options["speed"], "is given by speeds", "Leave it out")
+    common = fingerprint(print_of_deck(deck, asked), track)
+    planned = []
+    for train in by_name.values():
+        own = fingerprint(common, train)
+        for speed in speeds.tolist():
+            try:
+                settings = check(train, deck, track, speed=speed, **options)
+            except InputError as error:
+                if speed == speeds[0] and not planned:
+                    raise  # what refuses the first refuses most likely all
+                planned.append(Point("", refusal=str(error)))
+                continue
+            planned.append(Point(fingerprint(own, settings), Job(train, track, settings)))
+    rows = carry_out(
+        planned, OnDeck(deck, asked), MemoryStore() if store is None else store,
+        chunk=chunk, workers=workers, client=client, progress=progress,
+    )  # fmt: skip
+    dimensions = (
+        Dimension("train", list(by_name)),
+        Dimension("speed", speeds.tolist(), "m/s", "run.speed", "speed of the train"),
+    )
+    found = dataset(dimensions, asked, rows, {"title": f"speed envelope of {deck.name}"})
+    return signature(found, deck, by_name)
+
+
+def signature(found: xr.Dataset, deck: Deck, trains: Mapping[str, AnyTrain]) -> xr.Dataset:
+    """Add what trains and deck alone say of resonance to a data set over train and speed."""
+    bounds = [residual_acceleration(deck, train, found.speed.values) for train in trains.values()]
+    if all(bound is not None for bound in bounds):
+        words = "bound of the residual influence line: mid-span, first mode"
+        own = {"units": "m/s2", "long_name": words}
+        found = found.assign(signature=(("train", "speed"), np.array(bounds), own))
+    distances = [repeated_distance(train) or np.nan for train in trains.values()]
+    words = "distance at which axles repeat"
+    return found.assign(distance=("train", distances, {"units": "m", "long_name": words}))

@@ -1,0 +1,144 @@
+"""What is asked of every crossing of a study: quantities at places along the deck.
+
+An `Output` is one quantity at one place. Of each, a study keeps the smallest and the largest value
+over the crossing and the free vibration behind it, with their times, and the same of the static
+value under the standing loads, wherever they stand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import errors
+from ..decks import SECTION_QUANTITIES, Deck, Line
+from ..errors import InputError
+from ..results import Crossing
+
+__all__ = ["ACCELERATIONS", "OUTPUTS", "Output", "Peaks", "outputs_at", "peaks_of_run"]
+
+ACCELERATIONS = {"acceleration_y": "m/s2", "acceleration_z": "m/s2", "acceleration_roll": "rad/s2"}
+OUTPUTS = {**SECTION_QUANTITIES, **ACCELERATIONS}
+"""Quantities that a study can be asked for at a place, with units."""
+
+
+@dataclass(frozen=True, eq=False)
+class Output:
+    """One quantity at one place of a deck.
+
+    Attributes
+    ----------
+    quantity : str
+        One of `OUTPUTS`.
+    x : float
+        m.
+    modal : ndarray, shape (modes,)
+        What each mode has of it: per unit coordinate, or per unit acceleration.
+    line : Line or None
+        None for an acceleration, which has no static value.
+    """
+
+    quantity: str
+    x: float
+    modal: np.ndarray
+    line: Line | None
+
+    @property
+    def is_acceleration(self) -> bool:
+        """Whether it is one of `ACCELERATIONS`."""
+        return self.quantity in ACCELERATIONS
+
+    @property
+    def is_force(self) -> bool:
+        """Whether it is a section force, which the deck's viscosity carries too."""
+        return self.quantity.startswith(("moment", "torsion", "shear"))
+
+
+def outputs_at(
+    deck: Deck, quantities: Sequence[str], points: Sequence[float]
+) -> tuple[Output, ...]:
+    """Return what is asked of a deck: every quantity at every place, places outermost.
+
+    Raises
+    ------
+    InputError
+        An unknown quantity, a place off the deck, or what the deck cannot recover.
+    """
+    if isinstance(quantities, str):
+        quantities = (quantities,)
+    if not len(quantities):
+        raise InputError("quantities", list(quantities), "must name at least one quantity")
+    for i, quantity in enumerate(quantities):
+        errors.choice("quantities", quantity, OUTPUTS)
+        if quantity in quantities[:i]:
+            raise InputError("quantities", quantity, "is named twice")
+    places = errors.places("points", points, (0.0, deck.length)).tolist()
+    return tuple(_output(deck, quantity, x) for x in places for quantity in quantities)
+
+
+def _output(deck: Deck, quantity: str, x: float) -> Output:
+    if quantity in ACCELERATIONS:
+        component = list(ACCELERATIONS).index(quantity)
+        if not list(deck.has.values())[component]:
+            raise InputError("quantities", quantity, "the deck does not move that way")
+        return Output(quantity, x, deck.shapes(np.array([x]))[0, :, component], None)
+    line = deck.recovery.section(quantity, x)
+    if line is None:
+        allowed = deck.recovery.lacks or "the deck has no such stiffness"
+        raise InputError("quantities", quantity, allowed, "Leave it out")
+    return Output(quantity, x, line.modal, line)
+
+
+@dataclass(frozen=True, eq=False)
+class Peaks:
+    """The extremes of every output of some crossings.
+
+    Attributes
+    ----------
+    low, high : ndarray, shape (crossings, outputs)
+        Smallest and largest value, SI.
+    low_time, high_time : ndarray, shape (crossings, outputs)
+        s; zero when the first axle enters.
+    static_low, static_high : ndarray, shape (crossings, outputs)
+        The same under the standing loads; NaN for accelerations.
+    """
+
+    low: np.ndarray
+    high: np.ndarray
+    low_time: np.ndarray
+    high_time: np.ndarray
+    static_low: np.ndarray
+    static_high: np.ndarray
+
+    @property
+    def largest(self) -> np.ndarray:
+        """Largest magnitude, shape (crossings, outputs)."""
+        return np.maximum(-self.low, self.high)
+
+    @property
+    def largest_time(self) -> np.ndarray:
+        """When it comes, s."""
+        return np.where(-self.low > self.high, self.low_time, self.high_time)
+
+    @property
+    def static(self) -> np.ndarray:
+        """Largest magnitude under the standing loads; NaN for accelerations."""
+        return np.maximum(-self.static_low, self.static_high)
+
+
+def peaks_of_run(run: Crossing, outputs: Sequence[Output]) -> Peaks:
+    """Return the extremes of one crossing that is computed already."""
+    found = np.full((6, 1, len(outputs)), np.nan)
+    for i, output in enumerate(outputs):
+        if output.is_acceleration:
+            history = run.acceleration(output.x)
+        elif output.is_force:
+            history = run.section_forces(output.x)
+        else:
+            history = run.displacement(output.x)
+        (low, low_time), (high, high_time) = history.extremes(output.quantity)
+        static = (np.nan, np.nan) if output.line is None else run.static_extremes(output.line)
+        found[:, 0, i] = low, high, low_time, high_time, *static
+    return Peaks(*found)

@@ -1,0 +1,92 @@
+"""A study carried out: what is known already is looked up, the rest is computed chunk by chunk."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from .chunks import completed, split
+from .engine import Row
+from .store import MemoryStore, Store
+
+__all__ = ["CHUNK", "Point", "carry_out", "remaining"]
+
+CHUNK = 64
+"""Points of a chunk, if nothing else is asked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """One crossing of a study.
+
+    Attributes
+    ----------
+    key : str
+        Fingerprint of what it depends on; empty where it was refused.
+    task : object
+        What the task of a chunk needs to compute it.
+    refusal : str
+        Why it cannot be computed.
+    """
+
+    key: str
+    task: Any = None
+    refusal: str = ""
+
+
+def remaining(points: Sequence[Point], store: Store | MemoryStore) -> list[Point]:
+    """Return the points that are still to be computed, each key once."""
+    left: dict[str, Point] = {}
+    for point in points:
+        if not point.refusal and point.key not in store:
+            left.setdefault(point.key, point)
+    return list(left.values())
+
+
+def carry_out(
+    points: Sequence[Point],
+    task: Callable[[list[Any]], list[Row]],
+    store: Store | MemoryStore,
+    *,
+    chunk: int = CHUNK,
+    workers: int = 1,
+    client: Any = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Row | str]:
+    """Compute what is missing, keep it as it comes, and return all.
+
+    Parameters
+    ----------
+    points : sequence of Point
+    task : callable
+        From the tasks of a chunk's points to their rows; must be picklable for several processes.
+    store : Store or MemoryStore
+    chunk : int
+        Points of a chunk: what is lost at most when the program is stopped.
+    workers, client
+        See `chunks.completed`.
+    progress : function of (done, of how many), optional
+        Points, those known before counted.
+
+    Returns
+    -------
+    list of Row, or of a text where a point was refused
+    """
+    left = remaining(points, store)
+    chunks = [[left[i] for i in own] for own in split(len(left), chunk)]
+    known = len({point.key for point in points if not point.refusal}) - len(left)
+    done, total = known, known + len(left)
+    if progress is not None:
+        progress(done, total)
+    found = completed(
+        task, [[p.task for p in own] for own in chunks], workers=workers, client=client
+    )
+    for number, rows in found:
+        store.add([point.key for point in chunks[number]], rows)
+        done += len(rows)
+        if progress is not None:
+            progress(done, total)
+    keys = [point.key for point in points if not point.refusal]
+    rows = iter(store.get(keys))
+    return [point.refusal or next(rows) for point in points]
