@@ -38,6 +38,7 @@ class FromSummary:
     points: tuple[float, ...]
 
     def __call__(self, run: Crossing) -> float:
+        """Return it for a run."""
         place: Any = summarize(run, self.points, ())
         for name in self.path.replace("[", ".").replace("]", "").split("."):
             if isinstance(place, dict) and name not in place:
@@ -108,6 +109,7 @@ class Task:
     """The task of a chunk: crossings of one or several decks."""
 
     def __call__(self, tasks: Sequence[tuple[Deck, Asked, Job]]) -> list[Row]:
+        """Compute the crossings of a chunk."""
         rows: list[Row | None] = [None] * len(tasks)
         decks = dict.fromkeys(id(deck) for deck, _, _ in tasks)
         for number in decks:
@@ -215,8 +217,8 @@ class _Cases:
     def check_each(self) -> None:
         """Refuse a value that the case would refuse by itself, before any work starts."""
         for way in self.ways:
-            with errors.within(names={}):
-                _ = self.base.replace(way) if way else None
+            if way:
+                self.base.replace(way)
         for path, values in self.by_path.items():
             for value in values:
                 try:

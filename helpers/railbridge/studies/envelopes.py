@@ -1,4 +1,4 @@
-"""The commonest question of all: what do these trains do to this deck at these speeds?"""
+"""The largest response of a deck to trains over speeds: the commonest question of all."""
 
 from __future__ import annotations
 
@@ -38,6 +38,7 @@ class OnDeck:
     asked: Asked
 
     def __call__(self, jobs: Sequence[Job]) -> list[Row]:
+        """Compute the crossings of a chunk."""
         return respond(self.deck, jobs, self.asked)
 
 
