@@ -248,3 +248,28 @@ def test_keys_are_named_as_they_are_written(key, shown):
     with pytest.raises(InputError) as error:
         errors.keys("deck", {key: 1}, ["length"])
     assert str(error.value).startswith(f"deck.{shown}: unknown key")
+
+
+@pytest.mark.parametrize(
+    ("values", "limits", "said"),
+    [
+        ([1.0, -2.0], {"above": 0.0}, r"x\[2\] = -2.0.*above 0"),
+        ([0.5, 1.0, 9.0], {"most": 5.0}, r"x\[3\] = 9.0.*at most 5"),
+        ([1.0, np.nan], {}, r"x\[2\] = nan.*finite"),
+        ([1.0, 1e31], {}, r"x\[2\].*finite"),
+        ([1.0, 2.5], {"whole": True}, r"x\[2\] = 2.5.*whole"),
+        ([1e-40, 1.0], {"above": 0.0}, r"x\[1\].*above 0"),
+    ],
+)
+def test_arrays_are_held_to_the_same_limits_as_lists(values, limits, said):
+    for given in (values, np.array(values)):
+        with pytest.raises(InputError, match=said):
+            errors.numbers("x", given, **limits)
+
+
+def test_arrays_of_numbers_are_taken_whole():
+    given = np.array([1e-40, 1.0, 3.0])
+    found = errors.numbers("x", given, least=0.0, most=3.0)
+    assert found.tolist() == errors.numbers("x", given.tolist()).tolist() == [0.0, 1.0, 3.0]
+    assert found is not given and given[0] == 1e-40
+    assert errors.numbers("x", np.array([1, 2], dtype=np.int8)).dtype == float

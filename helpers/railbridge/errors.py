@@ -250,6 +250,18 @@ class Range:
         unit = self.unit if words else self.unit and f"in {self.unit}"
         return " ".join(part for part in ("must be a finite number", words, unit) if part)
 
+    def hold(self, values: np.ndarray) -> bool:
+        """Whether all numbers of an array, shape (n,), are within the range."""
+        size = np.abs(values)
+        small = np.where(size < 1e-30, 0.0, values)
+        inside = size <= 1e30
+        for bound, holds in (
+            (self.above, np.greater), (self.least, np.greater_equal), (self.most, np.less_equal),
+        ):  # fmt: skip
+            if bound is not None:
+                inside &= holds(small, bound)
+        return bool(np.all(inside)) and not (self.whole and np.any(small != np.trunc(small)))
+
     def checked(self, field: str, value: Any) -> float | int:
         """Return `value` as a float (an int if whole) within the range, or raise `InputError`."""
         # Only scalars: text, booleans and lists of one would pass float() too.
@@ -289,6 +301,11 @@ def numbers(field: str, values: Any, *, count: int | None = None, **limits: Any)
         length = f" of length {count}" if count else ""
         raise InputError(field, values, f"must be a list of numbers{length}")
     bounds = Range(**limits)
+    plain = isinstance(values, np.ndarray) and values.ndim == 1 and values.dtype.kind in "iuf"
+    if plain and bounds.hold(values):
+        result = np.where(np.abs(values) < 1e-30, 0.0, values).astype(float)
+        if count in (None, len(result)):
+            return result
     result = [bounds.checked(f"{field}[{i}]", v) for i, v in enumerate(values, start=1)]
     if count is not None and len(result) != count:
         raise InputError(field, values, f"must hold {count} numbers, it holds {len(result)}")

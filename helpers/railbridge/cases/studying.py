@@ -163,7 +163,8 @@ def _case_of(name: str, train: dict[str, Any], speed: float) -> Any:
 
 def _carry_out(given: argparse.Namespace, plan: sweeping.Plan, name: str, title: str) -> int:
     errors.integer("--workers", given.workers, least=1, most=256)
-    errors.integer("--chunk", given.chunk, least=1, most=100_000)
+    if given.chunk is not None:
+        errors.integer("--chunk", given.chunk, least=1, most=100_000)
     errors.number("--hours", given.hours, above=0.0)
     needed = _bytes(plan)
     if needed > MEMORY_LIMIT:
@@ -183,7 +184,7 @@ def _with_store(
     varied = " x ".join(f"{len(d.values)} {d.name}" for d in plan.dimensions)
     total = len(plan.points)
     try:
-        seconds = _estimate(left, store, given.dry_run)
+        seconds = _estimate(plan, left, store, given.dry_run)
         seconds /= 1 if given.cluster else given.workers
         known = total - len(left)
         said = f"{total} crossings ({varied})" + f", {known} known already" * bool(known)
@@ -217,13 +218,13 @@ def _bytes(plan: sweeping.Plan) -> float:
     return 8.0 * len(plan.columns) * len(plan.points) * 6 + 2e8
 
 
-def _estimate(left: list[studies.Point], store: Any, dry_run: bool) -> float:
+def _estimate(plan: sweeping.Plan, left: list[studies.Point], store: Any, dry_run: bool) -> float:
     """Return about how long the rest takes, s, from two of its points."""
     if not left:
         return 0.0
     chosen = [left[0], left[len(left) // 2]][: min(SAMPLED, len(left))]
     start = time.perf_counter()
-    rows = sweeping.Task()([point.task for point in chosen])
+    rows = plan.task([point.task for point in chosen])
     each = (time.perf_counter() - start) / len(chosen)
     if not dry_run:
         store.add([point.key for point in chosen], rows)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,7 @@ from ..decks import Deck
 from ..errors import InputError
 from ..results import Crossing
 from ..studies import Asked, Dimension, Job, Point, Row
-from ..trains import AnyTrain
+from ..trains import AnyTrain, AxleTrain
 from .definition import Case, case
 from .ranges import values_of
 from .summary import summarize
@@ -28,6 +29,8 @@ __all__ = ["Plan", "planned", "speed_envelope", "sweep"]
 STORE = "points.zarr"
 """What a study keeps its finished points in, inside its folder."""
 MEASURE = ("displacement_z", "acceleration_z")
+SIDE_BY_SIDE = 128
+"""Crossings of cars from which on they are computed side by side."""
 
 
 @dataclass(frozen=True)
@@ -81,6 +84,19 @@ class Plan:
     deck: Deck
     title: str
 
+    @cached_property
+    def task(self) -> Task:
+        """What computes a chunk; the same for all of the study, however much of it is left."""
+        return Task(sum(bool(point.group) for point in self.points) >= SIDE_BY_SIDE)
+
+    @cached_property
+    def chunk(self) -> int:
+        """Points of a chunk that take about a second or two."""
+        if self.task.side_by_side:
+            return studies.WIDTH
+        constant = all(p.refusal or isinstance(p.task[2].train, AxleTrain) for p in self.points)
+        return 1024 if constant else studies.CHUNK
+
     @property
     def columns(self) -> list[str]:
         """What the numbers of a row are."""
@@ -93,11 +109,13 @@ class Plan:
         """Open or make the store of this plan in a folder."""
         return studies.Store(Path(folder) / STORE, self.columns)
 
-    def carried_out(self, store: Any = None, **options: Any) -> xr.Dataset:
+    def carried_out(
+        self, store: Any = None, chunk: int | None = None, **options: Any
+    ) -> xr.Dataset:
         """Compute what is missing and return all; options as for `studies.carry_out`."""
-        rows = studies.carry_out(
-            self.points, Task(), studies.MemoryStore() if store is None else store, **options
-        )
+        store = studies.MemoryStore() if store is None else store
+        options["chunk"] = self.chunk if chunk is None else chunk
+        rows = studies.carry_out(self.points, self.task, store, **options)
         found = studies.dataset(self.dimensions, self.asked, rows, {"title": self.title})
         if [d.name for d in self.dimensions] == ["train", "speed"] and self.trains:
             found = studies.signature(found, self.deck, self.trains)
@@ -106,7 +124,15 @@ class Plan:
 
 @dataclass(frozen=True)
 class Task:
-    """The task of a chunk: crossings of one or several decks."""
+    """The task of a chunk: crossings of one or several decks.
+
+    Attributes
+    ----------
+    side_by_side : bool
+        See `studies.respond`.
+    """
+
+    side_by_side: bool = False
 
     def __call__(self, tasks: Sequence[tuple[Deck, Asked, Job]]) -> list[Row]:
         """Compute the crossings of a chunk."""
@@ -115,9 +141,9 @@ class Task:
         for number in decks:
             own = [i for i, (deck, _, _) in enumerate(tasks) if id(deck) == number]
             deck, asked, _ = tasks[own[0]]
-            for i, row in zip(
-                own, studies.respond(deck, [tasks[i][2] for i in own], asked), strict=True
-            ):
+            jobs = [tasks[i][2] for i in own]
+            found = studies.respond(deck, jobs, asked, self.side_by_side)
+            for i, row in zip(own, found, strict=True):
                 rows[i] = row
         return rows
 
@@ -175,7 +201,10 @@ def planned(
         deck_key = key_of(own.deck, lambda deck, a=asked: studies.print_of_deck(deck, a))
         parts = key_of(own.train, studies.fingerprint), key_of(own.track, studies.fingerprint)
         key = studies.fingerprint(deck_key, *parts, own.settings)
-        found.append(Point(key, (own.deck, asked, Job(own.train, own.track, own.settings))))
+        job = Job(own.train, own.track, own.settings)
+        able = studies.eligible(own.deck, job, asked.outputs, bool(asked.more))
+        group = studies.advance_of(own.settings) if able else ""
+        found.append(Point(key, (own.deck, asked, job), group=group))
     if not asked_by_deck:
         raise InputError("over", None, found[0].refusal)
     asked = next(iter(asked_by_deck.values()))
@@ -297,7 +326,7 @@ def sweep(
     points: Sequence[float] | None = None,
     *,
     out: str | Path | None = None,
-    chunk: int = studies.CHUNK,
+    chunk: int | None = None,
     workers: int = 1,
     client: Any = None,
     progress: Callable[[int, int], None] | None = None,
@@ -319,8 +348,9 @@ def sweep(
         Places along the deck, m; default those of the case.
     out : path, optional
         A folder in which finished points are kept as they come, and found again.
-    chunk : int
-        Points computed together, and lost at most when the program is stopped.
+    chunk : int, optional
+        Points computed together, and lost at most when the program is stopped; chosen if not given,
+        a second or two of work.
     workers : int
         Processes on this machine.
     client : distributed.Client, optional

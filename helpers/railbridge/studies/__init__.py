@@ -7,6 +7,7 @@ from .datasets import Dimension, dataset, table
 from .engine import NUMBERS, Asked, Job, Row, asked_of, respond
 from .envelopes import QUANTITIES, checked_speeds, named_trains, signature, speed_envelope
 from .fingerprints import fingerprint, print_of_deck
+from .lanes import WIDTH, advance_of, eligible
 from .outputs import OUTPUTS, outputs_at
 from .resonance import repeated_distance, residual_acceleration, resonance_speeds
 from .store import MemoryStore, Store
@@ -14,7 +15,8 @@ from .study import CHUNK, Point, carry_out, remaining
 
 __all__ = [
     "Asked", "CHUNK", "Dimension", "Job", "MemoryStore", "NUMBERS", "OUTPUTS", "Point",
-    "QUANTITIES", "Row", "Store", "asked_of", "carry_out", "checked_speeds", "dataset",
-    "fingerprint", "named_trains", "outputs_at", "print_of_deck", "remaining", "repeated_distance",
-    "residual_acceleration", "resonance_speeds", "respond", "signature", "speed_envelope", "table",
+    "QUANTITIES", "Row", "Store", "WIDTH", "advance_of", "asked_of", "carry_out", "checked_speeds",
+    "dataset", "eligible", "fingerprint", "named_trains", "outputs_at", "print_of_deck",
+    "remaining", "repeated_distance", "residual_acceleration", "resonance_speeds", "respond",
+    "signature", "speed_envelope", "table",
 ]  # fmt: skip

@@ -20,9 +20,10 @@ from ..settings import Settings
 from ..tracks import Track
 from ..trains import AnyTrain, AxleTrain
 from .constant import constant_loads
+from .lanes import WIDTH, advance_of, eligible, run_lanes
 from .outputs import Output, Peaks, peaks_of_run
 
-__all__ = ["NUMBERS", "Asked", "Job", "Row", "asked_of", "respond"]
+__all__ = ["NUMBERS", "Asked", "Job", "Row", "asked_of", "respond", "row_of_run"]
 
 
 def _unloading(run: Crossing) -> float:
@@ -126,7 +127,7 @@ def asked_of(outputs: Sequence[Output], numbers: Sequence[str] = ()) -> Asked:
     return Asked(tuple(outputs), tuple(numbers))
 
 
-def respond(deck: Deck, jobs: Sequence[Job], asked: Asked) -> list[Row]:
+def respond(deck: Deck, jobs: Sequence[Job], asked: Asked, side_by_side: bool = False) -> list[Row]:
     """Compute crossings of one deck; one that fails gives a row with its message.
 
     Parameters
@@ -134,6 +135,8 @@ def respond(deck: Deck, jobs: Sequence[Job], asked: Asked) -> list[Row]:
     deck : Deck
     jobs : sequence of Job
     asked : Asked
+    side_by_side : bool
+        Whether crossings of cars that can be lanes are; worth it where there are hundreds.
 
     Returns
     -------
@@ -141,12 +144,22 @@ def respond(deck: Deck, jobs: Sequence[Job], asked: Asked) -> list[Row]:
     """
     rows: list[Row | None] = [None] * len(jobs)
     constant: dict[tuple, list[int]] = {}
+    lanes: dict[tuple, list[int]] = {}
     for i, job in enumerate(jobs):
+        s = job.settings
         if isinstance(job.train, AxleTrain) and not asked.more:
-            s = job.settings
             constant.setdefault((id(job.train), s.track_offset, s.tail), []).append(i)
+        elif side_by_side and eligible(deck, job, asked.outputs, bool(asked.more)):
+            passes = s.interaction, s.iterations, s.track_offset
+            lanes.setdefault((id(job.train), advance_of(s), *passes), []).append(i)
         else:
             rows[i] = _one(deck, job, asked)
+    for own in lanes.values():
+        for first in range(0, len(own), WIDTH):
+            some = own[first : first + WIDTH]
+            found = run_lanes(deck, [jobs[i] for i in some], asked.outputs, asked.numbers)
+            for i, values in zip(some, found, strict=True):
+                rows[i] = _checked(values, asked)
     for (_, offset, tail), own in constant.items():
         train, speeds = jobs[own[0]].train, [jobs[i].settings.speed for i in own]
         peaks = constant_loads(deck, train, speeds, asked.outputs, track_offset=offset, tail=tail)
@@ -179,6 +192,11 @@ def row_of_run(run: Crossing, asked: Asked) -> Row:
     numbers = [NUMBERS[name][2](run) for name in asked.numbers]
     numbers += [float(take(run)) for take in asked.more.values()]
     row = np.concatenate([*values, np.array(numbers, dtype=float)])
-    if not np.isfinite(row[: 4 * len(asked.outputs)]).all():
+    return _checked(row, asked)
+
+
+def _checked(values: np.ndarray, asked: Asked) -> Row:
+    """Return a row of numbers; one that failed where extremes are not finite."""
+    if not np.isfinite(values[: 4 * len(asked.outputs)]).all():
         return Row.failed(asked, "the crossing gave numbers that are not finite")
-    return Row(row)
+    return Row(values)

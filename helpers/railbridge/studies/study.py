@@ -28,11 +28,14 @@ class Point:
         What the task of a chunk needs to compute it.
     refusal : str
         Why it cannot be computed.
+    group : str or number
+        Points of one group are computed together as far as may be.
     """
 
     key: str
     task: Any = None
     refusal: str = ""
+    group: Any = ""
 
 
 def remaining(points: Sequence[Point], store: Store | MemoryStore) -> list[Point]:
@@ -74,7 +77,12 @@ def carry_out(
     list of Row, or of a text where a point was refused
     """
     left = remaining(points, store)
-    chunks = [[left[i] for i in own] for own in split(len(left), chunk)]
+    by_group: dict[Any, list[Point]] = {}
+    for point in left:
+        by_group.setdefault(point.group, []).append(point)
+    chunks = [
+        [group[i] for i in own] for group in by_group.values() for own in split(len(group), chunk)
+    ]
     known = len({point.key for point in points if not point.refusal}) - len(left)
     done, total = known, known + len(left)
     if progress is not None:

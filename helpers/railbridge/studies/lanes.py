@@ -1,0 +1,626 @@
+r"""Many crossings of cars side by side: time outside, crossings inside.
+
+Crossings of one train over one deck differ in speed and track. If every one is sampled at the same
+*places*, an advance V h that all share, the shapes met by the axles are the same for all, and what
+differs is the step h. Every array then has one column a crossing, a *lane*, and the loop over
+samples is run once for all lanes.
+
+The algorithm is that of `coupling`, sample by sample: the wheel forces on a rigid deck; the deck
+under them; what its motion at the wheels adds to the forces; the deck under these; and so on for a
+given number of passes. Each pass needs only the motion of the pass before at the same sample, so
+all passes go through the crossing together, and nothing is kept but where they stand.
+
+A car in complex modes goes from sample to sample by ``z <- a z + b0 w + b1 w``, see `response`. A
+mode of the deck, with the imaginary parts of its z and s z, by
+
+    (q, q') <- E (q, q') + c0 p + c1 p.
+
+Waves below the wheels are turned on from block to block: exp(i k x) of the next sample is that of
+this one times exp(i k V h), taken anew every 64 samples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ..decks import Deck
+from ..response import ramp_coefficients
+from ..settings import Settings
+from ..spectra import amplitude_spectrum, deviation_percent
+from ..statics import static_extremes
+from ..tracks import Harmonic, Level, Track
+from ..trains import AnyTrain, Train
+from .outputs import Output
+
+__all__ = ["KNOWN", "WIDTH", "advance_of", "eligible", "run_lanes"]
+
+WIDTH = 512
+"""Lanes that are run together at most."""
+_FILLED = 64
+"""Their number is filled up to a multiple of this: the last bit of a product may depend on it."""
+_BLOCK = 64
+_NEARLY_CRITICAL = 0.9999
+KNOWN = ("wheel_unloading", "wheel_force_z", "deviation_from_rigid", "iterations")
+"""Numbers of a crossing that lanes can tell."""
+_JUMP = ("torsion", "shear_vertical", "shear_lateral")
+
+
+def advance_of(settings: Settings) -> float:
+    """Return the advance, m, in which a crossing is sampled as a lane.
+
+    One of a ladder of four a factor of two: the largest that is no longer than the crossing's own.
+    """
+    own = np.log2(settings.speed * settings.time_step)
+    return float(2.0 ** (np.floor(4.0 * own + 1e-9) / 4.0))
+
+
+class Job(Protocol):
+    """One crossing; see `engine.Job`."""
+
+    train: AnyTrain
+    track: Track
+    settings: Settings
+
+
+def eligible(deck: Deck, job: Job, outputs: Sequence[Output], more: bool) -> bool:
+    """Whether a crossing can be a lane: waves, wheel loads, and a given number of passes.
+
+    Parameters
+    ----------
+    deck : Deck
+    job : Job
+    outputs : sequence of Output
+        Section forces that jump are not looked for between samples, so they are none for lanes.
+    more : bool
+        Whether a whole run is needed to answer.
+    """
+    s = job.settings
+    if not isinstance(job.train, Train) or job.train.notches or more:
+        return False
+    if s.loads != "wheels" or s.excitation != "wheels" or s.feedback != "all":
+        return False
+    passes = s.interaction == "rigid" or (
+        s.interaction == "iterate" and s.iterations is not None and s.relaxation is None
+    )
+    if not passes or any(output.quantity in _JUMP for output in outputs):
+        return False
+    rails = [job.track.rail(d, side) for d in ("lateral", "vertical") for side in ("left", "right")]
+    if not all(isinstance(rail, (Harmonic, Level)) for rail in rails):
+        return False
+    cars = all(vehicle.system.modal is not None for vehicle, _ in job.train.kinds())
+    return cars and bool(np.all(deck.damping_ratios < _NEARLY_CRITICAL))
+
+
+def run_lanes(
+    deck: Deck, jobs: Sequence[Job], outputs: Sequence[Output], numbers: Sequence[str]
+) -> np.ndarray:
+    """Compute crossings that are `eligible`, of one train, in one advance and number of passes.
+
+    Parameters
+    ----------
+    deck : Deck
+    jobs : sequence of Job
+        At most `WIDTH`.
+    outputs : sequence of Output
+    numbers : sequence of str
+        Some of `KNOWN`.
+
+    Returns
+    -------
+    ndarray, shape (jobs, 6 outputs + numbers)
+        The six of `Peaks` for each output, then the numbers.
+    """
+    filled = list(jobs) + [jobs[0]] * (-len(jobs) % _FILLED)
+    return _Batch(deck, filled).run(outputs, numbers)[: len(jobs)]
+
+
+@dataclass(eq=False)
+class _Car:
+    """One car of all lanes: its modes, and where they stand for the rigid deck and each pass.
+
+    Attributes
+    ----------
+    poles : ndarray, shape (modes,)
+    a, b0, b1 : ndarray, shape (modes, lanes)
+        See `response.ramp_coefficients`.
+    left : (real, imaginary), each shape (modes, wheel directions)
+        What drives the modes, from k r + c r'.
+    right : (real, imaginary), each shape (wheel directions, modes)
+        What the springs carry.
+    felt : (real, imaginary), each shape (modes, 6 axles)
+        What drives the modes, from the deck's motion below the axles and its rate.
+    shown : (real, imaginary), each shape (3 axles, modes)
+        What the springs carry as loads of the axles about the deck's axis.
+    direct : ndarray, shape (3 axles, 6 axles)
+        What the deck's motion takes off these loads.
+    to_wheels : ndarray, shape (wheel directions, 6 axles)
+        k w + c w' of the wheels.
+    wheels, axles : slice
+        Rows of its wheels' directions, and of its axles' y, z and roll.
+    states : list of ndarray, shape (modes, lanes)
+    """
+
+    poles: np.ndarray
+    a: np.ndarray
+    b0: np.ndarray
+    b1: np.ndarray
+    left: tuple[np.ndarray, np.ndarray]
+    right: tuple[np.ndarray, np.ndarray]
+    felt: tuple[np.ndarray, np.ndarray]
+    shown: tuple[np.ndarray, np.ndarray]
+    direct: np.ndarray
+    to_wheels: np.ndarray
+    wheels: slice
+    axles: slice
+    states: list[np.ndarray]
+
+    def __post_init__(self) -> None:
+        self._drive, self._work = np.empty((2, *self.a.shape), dtype=complex)
+
+    def _driven(self, number: int, by: tuple[np.ndarray, np.ndarray], u: np.ndarray) -> np.ndarray:
+        """Add what a sample's input does there; return real and imaginary parts in turn."""
+        self._drive.real, self._drive.imag = by[0] @ u, by[1] @ u
+        state = self.states[number]
+        state += np.multiply(self.b1, self._drive, out=self._work)
+        return state.view(float)
+
+    def _go_on(self, number: int) -> None:
+        state = self.states[number]
+        state *= self.a
+        state += np.multiply(self.b0, self._drive, out=self._work)
+
+    def rigid_forces(self, u: np.ndarray) -> np.ndarray:
+        """Go on to a sample with k r + c r' below the wheels; return the wheel forces there."""
+        result = _real_of(self.right, self._driven(0, self.left, u)) - u
+        self._go_on(0)
+        return result
+
+    def start(self, standing: np.ndarray, u: np.ndarray) -> None:
+        """Let the modes stand somewhere at the first sample, with k r + c r' below the wheels."""
+        self.states[0][:] = standing - self.b1 * (self.left[0] @ u + 1j * (self.left[1] @ u))
+
+    def added(
+        self, number: int, motion: np.ndarray, wheels: bool
+    ) -> tuple[np.ndarray, np.ndarray | None]:
+        """Go on to a sample with a motion of the deck below the axles.
+
+        Return what that adds to the axles' loads, and to the wheel forces.
+        """
+        parts = self._driven(number, self.felt, motion)
+        loads = _real_of(self.shown, parts) - self.direct @ motion
+        forces = _real_of(self.right, parts) - self.to_wheels @ motion if wheels else None
+        self._go_on(number)
+        return loads, forces
+
+
+def _real_of(matrix: tuple[np.ndarray, np.ndarray], parts: np.ndarray) -> np.ndarray:
+    """Return the real part of a product: of two real products every other number."""
+    return (matrix[0] @ parts)[:, ::2] - (matrix[1] @ parts)[:, 1::2]
+
+
+def _parts(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    return np.ascontiguousarray(values.real), np.ascontiguousarray(values.imag)
+
+
+class _Batch:
+    """Lanes that go together."""
+
+    def __init__(self, deck: Deck, jobs: Sequence[Job]) -> None:
+        self.deck, self.jobs = deck, jobs
+        first = jobs[0]
+        self.train, self.passes = first.train, first.settings.iterations or 0
+        if first.settings.interaction == "rigid":
+            self.passes = 0
+        self.offset = first.settings.track_offset
+        self.advance = advance_of(first.settings)
+        self.speed = np.array([job.settings.speed for job in jobs])
+        self.h = self.advance / self.speed
+        tails = np.array([job.settings.tail for job in jobs])
+        reach = deck.length + self.train.length
+        self.samples = np.ceil(reach / self.advance + tails / self.h).astype(int) + 1
+        self._set_rails()
+        self._set_cars()
+        self._set_deck()
+
+    # ---- what is under the wheels
+
+    def _set_rails(self) -> None:
+        """Amplitude and phase of k r + c r' and of c r at every wheel, and when it fades in."""
+        wheels = self.train.wheels
+        vehicles = {car.number: car.vehicle for car in self.train.formation}
+        shape = len(wheels) * 2, len(self.jobs)
+        self.input, self.damped = np.zeros((2, *shape), dtype=complex)
+        lead_in = np.array([job.settings.lead_in for job in self.jobs])
+        ways: dict[tuple[int, str], tuple[np.ndarray, np.ndarray]] = {}
+        for j, direction in enumerate(("lateral", "vertical")):
+            for side in ("left", "right"):
+                rails = [job.track.rail(direction, side) for job in self.jobs]
+                waves = [r if isinstance(r, Harmonic) else None for r in rails]
+                k = np.array([2 * np.pi / r.wavelength if r else 0.0 for r in waves])
+                size = [r.amplitude * np.exp(1j * r.phase) if r else 0.0 for r in waves]
+                ways[j, side] = k, np.array(size)
+        rows: list[tuple[int, str]] = []
+        for wheel in wheels:
+            vehicle, contact = vehicles[wheel.car], wheel.number - 1
+            for j in (0, 1):
+                k, size = ways[j, wheel.side]
+                stiffness = vehicle.contact_stiffness[contact, j]
+                damping = vehicle.contact_damping[contact, j]
+                row = len(rows)
+                turned = size * np.exp(-1j * k * wheel.delay)
+                self.input[row] = (stiffness + 1j * damping * self.speed * k) * turned
+                self.damped[row] = damping * turned
+                rows.append((j, wheel.side))
+        # Rails of one wavelength share the turning phasor.
+        by_wave: dict[bytes, list[int]] = {}
+        for n, row in enumerate(rows):
+            by_wave.setdefault(ways[row][0].tobytes(), []).append(n)
+        self.groups = [np.array(own) for own in by_wave.values()]
+        self.waves = [ways[rows[own[0]]][0] for own in self.groups]
+        # Wheels of one axle are at one place.
+        self.delays, self.place_of = np.unique(
+            np.repeat([wheel.delay for wheel in wheels], 2), return_inverse=True
+        )
+        self.lead_in = lead_in
+        # From here on all lanes are past their fade-in.
+        self.settled = int(np.ceil((self.delays.max() - lead_in.min() / 2) / self.advance)) + 1
+        self.stands = lead_in == 0.0
+
+    def rail_input(self, k: int, turned: list[np.ndarray]) -> np.ndarray:
+        """Return k r + c r' at every wheel, both directions, at sample k."""
+        u = np.empty((len(self.place_of), len(self.jobs)))
+        for group, phasor in zip(self.groups, turned, strict=True):
+            own = self.input[group]
+            u[group] = own.real * phasor.imag + own.imag * phasor.real
+        x = k * self.advance - self.delays
+        if k < self.settled:
+            factor, rate = (values[self.place_of] for values in self._fade(x))
+            u *= factor
+            for group, phasor in zip(self.groups, turned, strict=True):
+                own = self.speed * self.damped[group]
+                u[group] += rate[group] * (own.real * phasor.imag + own.imag * phasor.real)
+        if self.stands.any():
+            u[np.ix_((x < -1e-9)[self.place_of], self.stands)] = 0.0
+        return u
+
+    def _fade(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return how far the run-up has faded in at every place, and its slope; see `FadeIn`."""
+        ramp = np.maximum(self.lead_in, 1e-9) / 2
+        share = (x[:, None] + self.lead_in) / ramp
+        share[:, self.stands] = 1.0
+        angle = np.pi * np.clip(share, 0.0, 1.0)
+        return 0.5 - 0.5 * np.cos(angle), 0.5 * np.pi / ramp * np.sin(angle)
+
+    def _run_up(self) -> None:
+        r"""Take all cars to the first sample, t = 0, in closed form.
+
+        A wave that fades in with a half-cosine is a sum of three, of the frequencies w and w +- W,
+        W = pi V / ramp; the full wave follows from the end of the fade. For each, a mode stands at
+
+            z(0) = integral of exp(-s t) exp(i n t) = [exp((i n - s) t) / (i n - s)] over its time.
+
+        The chords between samples of a wave are lower than the wave itself, by the square of
+        sin(a) / a with a = n h / 2.
+        """
+        ramp = np.maximum(self.lead_in, 1e-9) / 2
+        delays = self.delays[self.place_of][:, None]
+        begin, end = ((delays - span) / self.speed for span in (self.lead_in, ramp))
+        begin, end = np.minimum(begin, 0.0), np.minimum(end, 0.0)
+        turn = np.pi * self.speed / ramp
+        wave = np.empty_like(self.input.real)
+        for group, k in zip(self.groups, self.waves, strict=True):
+            wave[group] = k * self.speed
+        # k r + c r' of a wave of another frequency: c i (n - w) more.
+        pieces = [(wave, np.ones_like(self.input), end, np.zeros_like(end))]
+        for way, share in ((0, 0.5), (1, -0.25), (-1, -0.25)):
+            phase = np.exp(-1j * way * turn * (delays - self.lead_in) / self.speed)
+            pieces.append((wave + way * turn, share * phase, begin, end))
+        u0 = self.rail_input(0, [np.ones(len(self.jobs), dtype=complex) for _ in self.waves])
+        for car in self.cars:
+            poles = car.poles[:, None]
+            standing = np.zeros(car.a.shape, dtype=complex)
+            for row in range(car.wheels.start, car.wheels.stop):
+                drive = (
+                    car.left[0][:, row - car.wheels.start]
+                    + 1j * car.left[1][:, row - car.wheels.start]
+                )
+                for n, share, since, until in pieces:
+                    size = self.input[row] + 1j * (n[row] - wave[row]) * self.damped[row]
+                    size = size * share[row] * np.sinc(n[row] * self.h / (2 * np.pi)) ** 2
+                    for sign, part in ((1, size), (-1, np.conj(size))):
+                        own = sign * 1j * n[row] - poles
+                        over = np.exp(own * until[row]) - np.exp(own * since[row])
+                        standing += drive[:, None] * (sign * part / 2j) * over / own
+            car.start(standing, u0[car.wheels])
+
+    # ---- cars and deck
+
+    def _set_cars(self) -> None:
+        train = self.train
+        vehicles = {car.number: car.vehicle for car in train.formation}
+        self.static = np.array([[0.0, -wheel.static_load] for wheel in train.wheels]).reshape(-1, 1)
+        axles = train.placed_axles
+        axle_of = {(w.car, w.number): i for i, axle in enumerate(axles) for w in axle.wheels}
+        # From wheel forces to y, z and roll about the deck's axis at every axle, and from the
+        # axles' motion (and its rate, behind) to k w + c w' at the wheels.
+        height, count = self.deck.track_height, 3 * len(axles)
+        self.to_axles = np.zeros((count, 2 * len(train.wheels)))
+        to_wheels = np.zeros((2 * len(train.wheels), 2, count))
+        for i, wheel in enumerate(train.wheels):
+            own, arm = 3 * axle_of[wheel.car, wheel.number], self.offset + wheel.y
+            self.to_axles[own, 2 * i] = self.to_axles[own + 1, 2 * i + 1] = 1.0
+            self.to_axles[own + 2, 2 * i : 2 * i + 2] = -height, arm
+            vehicle = vehicles[wheel.car]
+            for part, values in enumerate((vehicle.contact_stiffness, vehicle.contact_damping)):
+                lateral, vertical = values[wheel.number - 1]
+                to_wheels[2 * i, part, [own, own + 2]] = lateral, -height * lateral
+                to_wheels[2 * i + 1, part, [own + 1, own + 2]] = vertical, arm * vertical
+        self.cars, wheel, axle = [], 0, 0
+        for car in train.formation:
+            poles, left, right, _ = car.vehicle.system.modal
+            a, b0, b1 = self._steps(poles)
+            own = slice(wheel, wheel + 2 * len(car.wheels))
+            rows = slice(axle, axle + 3 * len(car.axles))
+            wheel, axle = own.stop, rows.stop
+            met = to_wheels[own][:, :, rows].reshape(2 * len(car.wheels), -1)
+            loads = self.to_axles[rows, own]
+            self.cars.append(
+                _Car(
+                    poles, a, b0, b1, _parts(left), _parts(right), _parts(left @ met),
+                    _parts(loads @ right), loads @ met, met, own, rows,
+                    [np.zeros(a.shape, dtype=complex) for _ in range(self.passes + 1)],
+                )
+            )  # fmt: skip
+
+    def _steps(self, poles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return a, b0 and b1 of every pole and lane."""
+        x = poles[:, None] * self.h
+        a, b0, b1 = (c.reshape(x.shape) for c in ramp_coefficients(x.ravel(), 1.0))
+        return a, b0 * self.h, b1 * self.h
+
+    def _set_deck(self) -> None:
+        deck = self.deck
+        axles = self.train.placed_axles
+        delays = np.array([axle.delay for axle in axles])
+        last = int(np.ceil((deck.length + delays.max()) / self.advance)) + 2
+        self.leaves = min(last, int(self.samples.max()))
+        stations = deck.stations(delays, self.advance, 1.0, int(self.samples.max()))
+        self.stations = stations
+        omega, ratio = 2 * np.pi * deck.frequencies_hz, deck.damping_ratios
+        pole = omega * (-ratio + 1j * np.sqrt(1.0 - ratio**2))
+        a, b0, b1 = self._steps(pole)
+        wd, s = pole.imag[:, None], pole[:, None]
+        # z with Im z = wd q and Im(s z) = wd q': Re z = q' - Re(s) q.
+        sigma = pole.real[:, None]
+        self.E = (
+            a.real - a.imag * sigma / wd, a.imag / wd,
+            ((s * a).imag * -sigma + (s * a).real * wd) / wd, (s * a).imag / wd,
+        )  # fmt: skip
+        self.c0 = b0.imag / wd, (s * b0).imag / wd
+        self.c1 = b1.imag / wd, (s * b1).imag / wd
+        self.omega2, self.viscous = omega[:, None] ** 2, (2 * ratio * omega)[:, None]
+        shape = len(pole), len(self.jobs)
+        self.q = [np.zeros((2, *shape)) for _ in range(self.passes + 1)]
+        self.ahead = [np.zeros((2, *shape)) for _ in range(self.passes + 1)]
+
+    def shapes_at(self, k: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return shapes and slopes met by the axles at sample k, shape (3 axles, modes)."""
+        st = self.stations
+        found = np.zeros((2, len(st.starts), 3, self.deck.coordinates))
+        for i, (start, count, which) in enumerate(zip(st.starts, st.counts, st.which, strict=True)):
+            if start <= k < start + count:
+                mode, component = st.pairs
+                for part in (0, 1):
+                    found[part, i, component, mode] = st.tables[which][part][:, k - start]
+        return tuple(found.reshape(2, -1, self.deck.coordinates))
+
+    def deck_step(self, number: int, p: np.ndarray, k: int) -> None:
+        """Take the deck of one pass on to sample k with the modal force p."""
+        state, ahead = self.q[number], self.ahead[number]
+        if k:  # the first sample moves nothing
+            np.multiply(self.c1[0], p, out=state[0])
+            np.multiply(self.c1[1], p, out=state[1])
+            state += ahead
+        q, v = state
+        ahead[0] = self.E[0] * q + self.E[1] * v + self.c0[0] * p
+        ahead[1] = self.E[2] * q + self.E[3] * v + self.c0[1] * p
+
+    # ---- the loop
+
+    def run(self, outputs: Sequence[Output], numbers: Sequence[str]) -> np.ndarray:
+        """Run all lanes and return what was asked of each."""
+        meter = _Meter(self, outputs, numbers)
+        waves = [np.exp(1j * k * self.advance * np.arange(_BLOCK)[:, None]) for k in self.waves]
+        base: list[np.ndarray] = []
+        self._run_up()
+        for k in range(int(self.samples.max())):
+            place = k % _BLOCK
+            if place == 0:
+                base = [np.exp(1j * own * (k * self.advance)) for own in self.waves]
+            turned = [b * w[place] for b, w in zip(base, waves, strict=True)]
+            u = self.rail_input(k, turned)
+            rigid = np.concatenate([car.rigid_forces(u[car.wheels]) for car in self.cars])
+            rigid += self.static
+            if k < self.leaves:
+                forces, p, loads = self._passes(k, rigid)
+            else:
+                forces, p, loads = self._behind(rigid)
+            meter.read(k, rigid, forces, p, loads)
+        return meter.values()
+
+    def _passes(self, k: int, rigid: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Take all passes on to a sample; return forces, modal forces, loads of the last."""
+        shapes, slopes = self.shapes_at(k)
+        both = np.concatenate([shapes, slopes])
+        forces, count = rigid, len(shapes)
+        loads = rigid_loads = self.to_axles @ rigid
+        p = shapes.T @ loads
+        self.deck_step(0, p, k)
+        motion = np.empty((2, count, len(self.jobs)))
+        for number in range(1, self.passes + 1):
+            q, v = self.q[number - 1]
+            moved = both @ q
+            motion[0] = moved[:count]
+            np.multiply(self.speed, moved[count:], out=motion[1])
+            motion[1] += shapes @ v
+            last = number == self.passes
+            loads = rigid_loads.copy()
+            more = []
+            for car in self.cars:
+                own = motion[:, car.axles].reshape(-1, len(self.jobs))
+                added, wheels = car.added(number, own, last)
+                loads[car.axles] += added
+                more.append(wheels)
+            if last:
+                forces = rigid + np.concatenate(more)
+            p = shapes.T @ loads
+            self.deck_step(number, p, k)
+        return forces, p, loads
+
+    def _behind(self, rigid: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The train has left: the deck swings freely, and the cars on the track behind it."""
+        loads = np.zeros((len(self.to_axles), len(self.jobs)))
+        forces = rigid
+        if self.passes:
+            still = np.zeros((2, *loads.shape))
+            added = [
+                car.added(self.passes, still[:, car.axles].reshape(-1, len(self.jobs)), True)[1]
+                for car in self.cars
+            ]
+            forces = rigid + np.concatenate(added)
+        p = np.zeros_like(self.q[0][0])
+        self.deck_step(self.passes, p, 1)
+        return forces, p, loads
+
+
+class _Meter:
+    """What is asked of all lanes, as they go."""
+
+    def __init__(self, batch: _Batch, outputs: Sequence[Output], numbers: Sequence[str]) -> None:
+        self.batch, self.numbers = batch, tuple(numbers)
+        lanes, deck = len(batch.jobs), batch.deck
+        self.lines = [output.line for output in outputs]
+        self.modal = np.array([output.modal for output in outputs])
+        self.acceleration = np.array([o.is_acceleration for o in outputs], dtype=bool)
+        force = np.array([o.is_force for o in outputs], dtype=bool)
+        self.viscous = np.where(force, deck.internal_damping, 0.0)[:, None]
+        moves = ~self.acceleration & ~force
+        self.lags = moves & (deck.internal_damping > 0.0)
+        self.rest = np.where(self.acceleration[:, None], 0.0, self.modal / batch.omega2[:, 0])
+        self.low, self.high = np.full((2, len(outputs), lanes), [[[np.inf]], [[-np.inf]]])
+        self.low_k, self.high_k = np.zeros((2, len(outputs), lanes), dtype=int)
+        self.heaviest = np.zeros(lanes)
+        self.lightest = np.full(lanes, np.inf)
+        self.all_go = int(batch.samples.min())
+        static = batch.static[1::2]
+        self.share = np.divide(1.0, static, out=np.full_like(static, np.nan), where=static < 0.0)
+        if deck.internal_damping > 0.0:
+            beta = deck.internal_damping
+            a, b0, b1 = ramp_coefficients(-batch.h / beta, 1.0)
+            self.lag = a.real, b0.real * batch.h / beta, b1.real * batch.h / beta
+            self.lagged = np.zeros((int(self.lags.sum()), lanes))
+            self.before = np.zeros_like(self.lagged)
+        self._set_influence()
+        first = batch.train.formation[0]
+        self.own = 2 * len(first.wheels)
+        reach = first.axles[-1].delay + deck.length
+        self.stop = int(np.floor(reach / batch.advance + 1e-4)) + 1
+        if "deviation_from_rigid" in self.numbers:
+            self.history = np.zeros((2, self.stop, lanes))
+
+    def _set_influence(self) -> None:
+        """Influence of y, z and roll at every sample's place of a front axle, for all axles."""
+        batch, length = self.batch, self.batch.deck.length
+        delays = np.array([axle.delay for axle in batch.train.placed_axles])
+        self.influence = np.zeros((batch.leaves, len(self.lines), 3 * len(delays)))
+        for i, delay in enumerate(delays):
+            x = np.arange(batch.leaves) * batch.advance - delay
+            slack = 1e-4 * batch.advance
+            on = (x >= -slack) & (x <= length + slack)
+            for n, line in enumerate(self.lines):
+                if line is not None:
+                    values = line.influence(np.clip(x[on], 0.0, length))[:, 0]
+                    self.influence[on, n, 3 * i : 3 * i + 3] = values
+
+    def read(
+        self, k: int, rigid: np.ndarray, forces: np.ndarray, p: np.ndarray, loads: np.ndarray
+    ) -> None:
+        """Look at the last pass at sample k."""
+        batch = self.batch
+        q, v = batch.q[batch.passes]
+        going = k < batch.samples
+        if len(self.modal):
+            values = self._values(k, q, v, p, loads)
+            lower, higher = values < self.low, values > self.high
+            if k >= self.all_go:
+                lower &= going
+                higher &= going
+            np.copyto(self.low, values, where=lower)
+            np.copyto(self.high, values, where=higher)
+            self.low_k[lower] = k
+            self.high_k[higher] = k
+        vertical = forces[1::2]
+        lowest, share = vertical.min(axis=0), np.fmin.reduce(vertical * self.share, axis=0)
+        if k >= self.all_go:
+            lowest, share = np.where(going, lowest, 0.0), np.where(going, share, np.inf)
+        np.minimum(self.heaviest, lowest, out=self.heaviest)
+        np.minimum(self.lightest, share, out=self.lightest)
+        if "deviation_from_rigid" in self.numbers and k < self.stop:
+            self.history[0, k] = rigid[1 : self.own : 2].sum(axis=0)
+            self.history[1, k] = forces[1 : self.own : 2].sum(axis=0)
+
+    def _values(
+        self, k: int, q: np.ndarray, v: np.ndarray, p: np.ndarray, loads: np.ndarray
+    ) -> np.ndarray:
+        batch = self.batch
+        values = self.modal @ q
+        if self.viscous.any():
+            values += self.viscous * (self.modal @ v)
+        rest = -(self.rest @ p)
+        if k < batch.leaves:
+            rest += self.influence[k] @ loads
+        if self.lags.any():
+            own = rest[self.lags]
+            a, b0, b1 = self.lag
+            self.lagged = own if k == 0 else a * self.lagged + b0 * self.before + b1 * own
+            self.before = own
+            rest[self.lags] = self.lagged
+        values += rest
+        if self.acceleration.any():
+            acceleration = p - batch.viscous * v - batch.omega2 * q
+            values[self.acceleration] = self.modal[self.acceleration] @ acceleration
+        return values
+
+    def values(self) -> np.ndarray:
+        """Return what was asked of each lane, shape (lanes, 6 outputs + numbers)."""
+        batch = self.batch
+        statics = [
+            (np.nan, np.nan) if line is None else static_extremes(batch.train, batch.offset, line)
+            for line in self.lines
+        ]
+        static = np.array(statics).reshape(-1, 2, 1) + np.zeros(len(batch.jobs))
+        six = (
+            self.low, self.high, self.low_k * batch.h, self.high_k * batch.h,
+            static[:, 0], static[:, 1],
+        )  # fmt: skip
+        numbers = [
+            [self._number(name, lane) for lane in range(len(batch.jobs))] for name in self.numbers
+        ]
+        return np.concatenate([*six, np.array(numbers).reshape(-1, len(batch.jobs))]).T
+
+    def _number(self, name: str, lane: int) -> float:
+        if name == "wheel_unloading":
+            return float(1.0 - self.lightest[lane])
+        if name == "wheel_force_z":
+            return float(-self.heaviest[lane])
+        if name == "iterations":
+            return float(self.batch.passes)
+        if not self.batch.passes:
+            return np.nan
+        h = self.batch.h[lane]
+        before, after = (amplitude_spectrum(own[:, lane], h) for own in self.history)
+        return deviation_percent(after, before)
