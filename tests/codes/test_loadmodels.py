@@ -1,6 +1,9 @@
 """Load models against formulas by hand and against brute force on influence lines known in closed
 form."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -250,3 +253,12 @@ def test_refusals_and_tables():
         load_model("LM71").worst(simple(20.0), "moment_vertical", at=21.0)
     frame = load_model("LM71").worst(simple(20.0), "moment_vertical", at=10.0).to_frame()
     assert list(frame.index) == ["least", "largest"] and "moment_vertical (N m)" in frame
+
+
+def test_the_room_opens_without_pandas_and_pydantic():
+    code = (
+        "import sys, railbridge as rb; rb.load_model('LM71'); rb.hslm_b(3, 3.0); "
+        "print([m for m in ('pandas', 'pydantic', 'matplotlib') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stdout.strip() == "[]", done.stderr
