@@ -103,6 +103,36 @@ time_step = 2e-3
 interaction = "rigid"
 tail = 0.1
 """,
+    "listed.toml": """
+[deck]
+length = 12.0
+bending_stiffness_vertical = 5e9
+mass = 8000.0
+damping = { modal = 0.02 }
+modes = 3
+[train]
+file = "axles.csv"
+track = 0.0
+[run]
+speed = 60.0
+time_step = 2e-3
+tail = 0.1
+""",
+    "named.toml": """
+[deck]
+length = 12.0
+bending_stiffness_vertical = 5e9
+mass = 8000.0
+damping = { modal = 0.02 }
+modes = 3
+[train]
+name = "D4"
+wagons = 2
+[run]
+speed = 60.0
+time_step = 2e-3
+tail = 0.1
+""",
     "foreign.toml": """
 [deck]
 file = "deck.toml"
@@ -116,6 +146,15 @@ tail = 0.1
 interaction = "direct"
 """,
 }
+AXLES = """\
+# name: two wagons
+# source: a drawing
+spacing (mm);load (t);note
+;22,5;first
+1800;22,5;
+4650;20;
+1800;20;last
+"""
 LETTERS = [
     '"', "'", ",", ";", "=", "[", "]", "{", "}", "\n", "\t", "#", ".", "-", "e", "0", "9", " ",
     "\x00", "\x1b[31m", "\ufeff", "\u202e", "\U0001f600", "$x^$", "nan", "1e308", "1,5", "\r",
@@ -144,6 +183,7 @@ def folder(tmp_path_factory):
     for name, text in CASES.items():
         (place / name).write_text(text, encoding="utf-8")
     (place / "starter.toml").write_text(pages.starter("starter.toml"), encoding="utf-8")
+    (place / "axles.csv").write_text(AXLES, encoding="utf-8")
     vehicles = shelf.data_root() / "vehicles"
     shutil.copy(vehicles / "xia2000.csv", place / "mine.csv")
     shutil.copy(vehicles / "xia2000_planar.toml", place / "planar.toml")
@@ -236,13 +276,14 @@ def test_the_files_are_good_before_they_are_spoiled(case, folder, capsys, monkey
     assert told(capsys, monkeypatch, "run", str(folder / case), "--out", out) == 0
 
 
-@pytest.mark.parametrize("file", ["own.toml", "bare.toml", "foreign.toml", "mine.csv",
-                                  "planar.toml", "deck.toml", "nodes.csv", "modes.csv",
-                                  "masses.csv", "starter.toml"])  # fmt: skip
+@pytest.mark.parametrize("file", [*CASES, "axles.csv", "mine.csv", "planar.toml", "deck.toml",
+                                  "nodes.csv", "modes.csv", "masses.csv",
+                                  "starter.toml"])  # fmt: skip
 def test_spoiled_files_are_computed_or_refused_in_one_line(file, folder, capsys, monkeypatch):
     random = np.random.default_rng([SEED, sum(file.encode())])
     case = file if file in (*CASES, "starter.toml") else None
-    case = case or ("own.toml" if file in ("mine.csv", "planar.toml") else "foreign.toml")
+    beside = {"mine.csv": "own.toml", "planar.toml": "own.toml", "axles.csv": "listed.toml"}
+    case = case or beside.get(file, "foreign.toml")
     good = (folder / file).read_bytes()
     try:
         for _ in range(int(12 * SIZE)):

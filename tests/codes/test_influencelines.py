@@ -51,6 +51,10 @@ def test_a_line_is_cut_where_it_changes_sign_inside_a_piece():
         pytest.approx((2.0, 2.5)), pytest.approx((3.0, 4.0))
     ]  # fmt: skip
     assert line.positive_stretches((0.0, 9.0)) == []
+    x = np.linspace(0.0, 10.0, 997)
+    for turned in (line, line.times(-1.0)):
+        cut = turned.positive.value(x)
+        assert cut == pytest.approx(np.maximum(turned.value(x), 0.0), abs=1e-12)
 
 
 def test_what_a_deck_cannot_tell_is_refused_by_name():

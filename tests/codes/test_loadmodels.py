@@ -1,6 +1,9 @@
 """Load models against formulas by hand and against brute force on influence lines known in closed
 form."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -114,6 +117,60 @@ def test_lm71_shear_leaves_out_forces_that_relieve(place):
     assert (abs(same), abs(other)) == pytest.approx((expected, relieving), rel=5e-4)
 
 
+@pytest.mark.parametrize("place", [10.0, 6.3])
+def test_lm71_shear_by_hand_with_the_first_force_just_beyond_the_section(place):
+    length = 20.0
+    found = load_model("LM71").worst(simple(length), "shear_vertical", at=place)
+    forces = 250e3 * sum(1.0 - (place + 1.6 * k) / length for k in range(4))
+    per_metre = 80e3 * max(length - place - 5.6, 0.0) ** 2 / (2 * length)
+    assert abs(found.value) == pytest.approx(forces + per_metre, rel=1e-7)
+
+
+def test_lm71_on_short_spans_leaves_out_forces_that_relieve():
+    """The group is longer than a span, so some of its forces stand where they relieve."""
+    deck = rb.Beam("short", (4.0, 4.0, 4.0), 1e4, 5e9).deck(4, 0.01)
+    x = (np.arange(12_000) + 0.5) * 1e-3
+
+    def eta(places):
+        return -deck.influence("moment_vertical", at=2.0, places=places)
+
+    values = eta(x)
+    for sign in (-1.0, 1.0):
+        positive = np.maximum(sign * values, 0.0)
+        fronts = np.arange(0.0, 18.4, 0.01)
+        expected = max(
+            250e3 * np.maximum(sign * eta(front - FORCES), 0.0).sum()
+            + 80e3 * 1e-3 * positive[(x < front - GROUP) | (x > front)].sum()
+            for front in fronts
+        )
+        found = load_model("LM71").worst(deck, "moment_vertical", at=2.0)
+        effect = found.largest if sign > 0.0 else found.least
+        assert effect.value == pytest.approx(sign * expected, rel=1e-3)
+        assert 0 < len(effect.forces) < 4
+
+
+def test_the_worst_place_is_found_between_the_steps_of_the_search():
+    deck = rb.Beam("two", (6.0, 9.0), 1e4, 5e9).deck(4, 0.01)
+    lone = LoadModel("one force", places=(0.0,), force=1e5, span=1e-9)
+    found = lone.worst(deck, "displacement_z", at=4.0).least
+    ((place, force),) = found.forces
+    slope = deck.influence("displacement_z", at=4.0, places=[place], derivative=1)[0]
+    curvature = deck.influence("displacement_z", at=4.0, places=[place], derivative=2)[0]
+    assert abs(slope / curvature) < 1e-5 and force == 1e5  # m from the very top
+
+
+def test_rounding_of_an_influence_line_is_no_effect():
+    row = rb.Beam("row", (20.0, 30.0), 1e4, 5e9, continuous=False).deck(6, 0.01)
+    three = rb.Beam("three", (20.0, 30.0, 17.3), 1e4, 5e9).deck(6, 0.01)
+    for deck, at in ((three, 0.0), (rb.deck("viaduct36"), 0.0), (row, 0.0), (row, 50.0)):
+        for name in LOAD_MODELS:
+            found = load_model(name).worst(deck, "moment_vertical", at=at)
+            assert (found.value, found.least.stretches, found.largest.forces) == (0.0, (), ())
+    # The other span of a row of simple spans does nothing.
+    found = load_model("LM71").worst(row, "moment_vertical", at=35.0)
+    assert found.largest.value == 0.0 and found.least.stretches[0][0] == pytest.approx(20.0)
+
+
 @pytest.mark.parametrize("name", SW)
 @pytest.mark.parametrize("span", [12.0, 30.0])
 def test_sw_on_one_span_and_over_a_support(name, span):
@@ -196,3 +253,12 @@ def test_refusals_and_tables():
         load_model("LM71").worst(simple(20.0), "moment_vertical", at=21.0)
     frame = load_model("LM71").worst(simple(20.0), "moment_vertical", at=10.0).to_frame()
     assert list(frame.index) == ["least", "largest"] and "moment_vertical (N m)" in frame
+
+
+def test_the_room_opens_without_pandas_and_pydantic():
+    code = (
+        "import sys, railbridge as rb; rb.load_model('LM71'); rb.hslm_b(3, 3.0); "
+        "print([m for m in ('pandas', 'pydantic', 'matplotlib') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stdout.strip() == "[]", done.stderr

@@ -194,6 +194,9 @@ def test_units_in_the_header_are_read_where_they_may_stand(tmp_path):
         assert table.notes == {"source": "a, b c"} and table.remarks == {"source": ("a", "b c")}
         with pytest.raises(rb.InputError, match=r"^u\.csv: "):
             read_columns(path, ["x"], ["y", "note"])
+    path.write_text("x (mm);y (N)\n1,5;2\n", encoding="utf-8")
+    table = read_columns(path, ["x"], ["y"], units_in_header=True)
+    assert table.numbers("x").tolist() == [1.5]
     path.write_text("x (mm),x (m)\n1,2\n", encoding="utf-8")
     with pytest.raises(rb.InputError, match="column x: appears more than once"):
         read_columns(path, ["x"], units_in_header=True)

@@ -147,8 +147,8 @@ _NOTES = {
     '# or file = "my_deck.toml" for a file beside this one.',
     "train": "# One vehicle several times. Or a mixed train, front to back, without vehicle:\n"
     '#   cars = ["power", { vehicle = "coach", count = 6 }, "power"]',
-    "# train": '# Or bare axle loads: name = "HSLM-A1", or file = "my_train.csv" beside this one, '
-    "or all here:",
+    "# train": '# Or bare axle loads: name = "HSLM-A1", or file = "my_train.csv" beside this\n'
+    "# one, or all of them here:",
     "track": "# Leave [track] out for perfect rails. A list adds irregularities up; rails that "
     "differ:\n"
     '# { left = { ... }, right = { ... } }; measured: { kind = "table", x = [ ... ], r = [ ... '

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from .. import errors
-from ..decks import REACTION_QUANTITIES, Deck
+from ..decks import REACTION_QUANTITIES, Deck, Line
 from ..guideways import COMPONENTS
 
 __all__ = ["InfluenceLine", "influence_line"]
@@ -163,9 +163,29 @@ def influence_line(deck: Deck, quantity: str, at: float, y: float = 0.0) -> Infl
     """
     deck.influence(quantity, at=at, places=[0.0], load="z")  # refuses what cannot be recovered
     place = errors.place("at", at, (0.0, deck.length))
-    is_reaction = quantity in REACTION_QUANTITIES
-    recover = deck.recovery.reaction if is_reaction else deck.recovery.section
-    cubic = recover(quantity, place).influence
-    z, roll = (COMPONENTS.index(name) for name in ("z", "roll"))
+    if quantity in REACTION_QUANTITIES:
+        return _cleaned(_under_unit_load(deck.recovery.reaction(quantity, place), y))
+    # At a bearing a line may be nothing but rounding: what it is elsewhere tells.
+    usual = max(
+        _under_unit_load(deck.recovery.section(quantity, share * deck.length), y).size
+        for share in (0.31, 0.5)
+    )
+    return _cleaned(_under_unit_load(deck.recovery.section(quantity, place), y), usual)
+
+
+_ROUNDING = 1e-11
+"""Share of a line's size below which a piece of it is rounding, and no effect of any load."""
+
+
+def _under_unit_load(line: Line, y: float) -> InfluenceLine:
+    """Return what 1 N downwards does, y to the left of the axis."""
+    cubic, (z, roll) = line.influence, (COMPONENTS.index(name) for name in ("z", "roll"))
     along = cubic.coefficients[:, :, 0, z] + y * cubic.coefficients[:, :, 0, roll]
     return InfluenceLine(cubic.edges, -along)
+
+
+def _cleaned(line: InfluenceLine, usual: float = 0.0) -> InfluenceLine:
+    """Return a line without the pieces that are rounding only."""
+    sizes = np.abs(line.coefficients).max(axis=1, keepdims=True)
+    least = _ROUNDING * max(line.size, usual)
+    return InfluenceLine(line.edges, np.where(sizes > least, line.coefficients, 0.0))

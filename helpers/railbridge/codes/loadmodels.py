@@ -186,14 +186,9 @@ class LoadModel:
             return self._effect(eta, front)
 
         front = _largest_at(effect, self._candidates(line))
-        if effect(np.array([front]))[0] <= self._rounding(line):
+        if effect(np.array([front]))[0] <= 0.0:
             return StaticEffect(0.0)
         return self._standing(eta, sign, front)
-
-    def _rounding(self, line: InfluenceLine) -> float:
-        """Return the size of effects that are rounding of the influence line, and no effect."""
-        per_metre = (self.pattern_load + self.anywhere) * line.length
-        return 1e-9 * self.alpha * (self.force * len(self.places) + per_metre) * line.size
 
     def _candidates(self, line: InfluenceLine) -> np.ndarray:
         """Return fronts to start the search from, m: dense, and each load at each kink or jump."""
