@@ -18,6 +18,7 @@ from .datasets import Dimension, dataset
 from .engine import Asked, Job, Row, asked_of, respond
 from .fingerprints import fingerprint, print_of_deck
 from .outputs import outputs_at
+from .refinement import SETTLED, Between, refined, starting_speeds
 from .resonance import repeated_distance, residual_acceleration
 from .study import CHUNK, MemoryStore, Point, Store, carry_out
 
@@ -80,7 +81,7 @@ def checked_speeds(speeds: Any) -> np.ndarray:
 def speed_envelope(
     deck: Deck,
     trains: Any,
-    speeds: Sequence[float],
+    speeds: Sequence[float] | Between,
     points: Sequence[float] | None = None,
     quantities: Sequence[str] = QUANTITIES,
     *,
@@ -99,8 +100,9 @@ def speed_envelope(
     ----------
     deck : Deck
     trains : mapping of trains by name, one train, or several
-    speeds : sequence of float
-        m/s, ascending.
+    speeds : sequence of float, or Between
+        m/s, ascending; or from where to where, chosen so that halving the steps changes no peak of
+        what is asked for by more than `refinement.SETTLED`.
     points : sequence of float, optional
         Places along the deck, m; default mid-length.
     quantities : sequence of str
@@ -130,34 +132,52 @@ def speed_envelope(
     """
     deck = errors.instance("deck", deck, Deck)
     by_name = named_trains(trains)
-    speeds = checked_speeds(speeds)
+    if not isinstance(speeds, Between):
+        speeds = checked_speeds(speeds)
     points = [deck.length / 2] if points is None else points
     asked = asked_of(outputs_at(deck, quantities, points), numbers)
     track = Track() if track is None else errors.instance("track", track, Track)
     if "speed" in options:
         raise InputError("speed", options["speed"], "is given by speeds", "Leave it out")
     common = fingerprint(print_of_deck(deck, asked), track)
-    planned = []
-    for train in by_name.values():
-        own = fingerprint(common, train)
-        for speed in speeds.tolist():
+    store = MemoryStore() if store is None else store
+    task = OnDeck(deck, asked)
+    how = {"chunk": chunk, "workers": workers, "client": client, "progress": progress}
+
+    def planned(train: AnyTrain, along: np.ndarray) -> list[Point]:
+        own, found = fingerprint(common, train), []
+        for speed in along.tolist():
             try:
                 settings = check(train, deck, track, speed=speed, **options)
             except InputError as error:
-                if speed == speeds[0] and not planned:
-                    raise  # what refuses the first refuses most likely all
-                planned.append(Point("", refusal=str(error)))
+                found.append(Point("", refusal=str(error)))
                 continue
-            planned.append(Point(fingerprint(own, settings), Job(train, track, settings)))
-    rows = carry_out(
-        planned, OnDeck(deck, asked), MemoryStore() if store is None else store,
-        chunk=chunk, workers=workers, client=client, progress=progress,
-    )  # fmt: skip
+            found.append(Point(fingerprint(own, settings), Job(train, track, settings)))
+        if all(point.refusal for point in found):
+            check(train, deck, track, speed=float(along[0]), **options)  # which says why
+        return found
+
+    title = f"speed envelope of {deck.name}"
+    if isinstance(speeds, Between):
+        chosen = []
+        for train in by_name.values():
+
+            def largest(along: np.ndarray, train: AnyTrain = train) -> np.ndarray:
+                rows = carry_out(planned(train, along), task, store, **how)
+                found = [row if isinstance(row, Row) else Row.failed(asked, row) for row in rows]
+                return np.array([row.peaks(asked).largest[0] for row in found])
+
+            chosen.append(refined(largest, starting_speeds(deck, train, speeds)))
+        speeds = np.unique(np.concatenate(chosen))
+        title += f", {len(speeds)} speeds chosen: halving the steps changes no peak by more than "
+        title += f"{100 * SETTLED:g} %"
+    points_of_all = [point for train in by_name.values() for point in planned(train, speeds)]
+    rows = carry_out(points_of_all, task, store, **how)
     dimensions = (
         Dimension("train", list(by_name)),
         Dimension("speed", speeds.tolist(), "m/s", "run.speed", "speed of the train"),
     )
-    found = dataset(dimensions, asked, rows, {"title": f"speed envelope of {deck.name}"})
+    found = dataset(dimensions, asked, rows, {"title": title})
     return signature(found, deck, by_name)
 
 
