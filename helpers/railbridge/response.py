@@ -8,10 +8,22 @@ to ``w[k+1]`` over a step h, the solution at the end of the step is, exactly,
     a = exp(s h),   b1 = h phi2(s h),   b0 = h (phi1(s h) - phi2(s h)),
     phi1(x) = (exp(x) - 1) / x,   phi2(x) = (phi1(x) - 1) / x.
 
-This is a first-order digital filter for each mode, and `scipy.signal.lfilter` runs it in compiled
-code. It has no stability limit and no algorithmic damping; its only error is that the input is
-sampled. Shock-spectrum practice knows it as the ramp-invariant filter (Smallwood 1981; ISO
-18431-4).
+This is a first-order digital filter for each mode. It has no stability limit and no algorithmic
+damping; its only error is that the input is sampled. Shock-spectrum practice knows it as the
+ramp-invariant filter (Smallwood 1981; ISO 18431-4).
+
+It is run a block of B samples at a time. What a mode keeps from one sample to the next is
+``z~[k] = z[k] - b1 w[k]``, with ``z~[k+1] = a z~[k] + c w[k]`` and ``c = b0 + a b1``. So within a
+block that starts at z~,
+
+    z[k] = a^k z~ + b1 w[k] + c (w[k-1] + a w[k-2] + ... + a^(k-1) w[0]),
+    z~ of the next block = a^B z~ + c (w[B-1] + a w[B-2] + ... + a^(B-1) w[0]).
+
+All blocks of the first line are one product of matrices, input and start to output; only the second
+goes from block to block, and `scipy.signal.lfilter` runs it. A recursion moves one number at a
+time, a product fills the processor: that is ten times faster, and nothing but the order of the sums
+changes. (A real second-order filter for q would save half; but its coefficients, near those of
+``(1 - 1/x)^2``, lose eps / (omega h)^2, which these do not.)
 """
 
 from __future__ import annotations
@@ -33,8 +45,10 @@ __all__ = [
 _WORST_CONDITION = 1e6
 """Condition of the eigenvectors above which the modes are not trusted: about ten digits would be
 left."""
-_NEARLY_CRITICAL = 0.9999
-"""Damping ratio from which Im(z) / omega_d would lose digits."""
+_NEARLY_CRITICAL = 1e-4
+"""Distance of a damping ratio from 1 within which ``(z1 - z2) / (s1 - s2)`` would lose digits."""
+_BLOCK, _MODES_BLOCK = 8, 16
+"""Samples of a block: longer ones multiply more, shorter ones go from block to block more often."""
 
 
 def ramp_coefficients(
@@ -197,51 +211,70 @@ class SampledResponse:
         if self.coefficients is None:
             return self.system.stepped(u, x0, self.time_step)
         _, left, right, to_modal = self.system.modal
-        a, b0, b1 = self.coefficients
-        count, batch = len(a), u.shape[1:]
-        start = np.zeros(count) if x0 is None else to_modal @ x0
-        # Real and imaginary parts stand one above the other, so that both products below are plain
-        # real ones.
-        parts = np.empty((2, count, *batch))
-        single = left.shape[1] == 1
-        if not single:
-            np.matmul(
-                np.vstack([left.real, left.imag]),
-                u.reshape(len(u), -1),
-                out=parts.reshape(2 * count, -1),
-            )
-        w = u[0] if single else np.empty(batch, dtype=complex)
-        for m in range(count):
-            gain = left[m, 0] if single else 1.0
-            if not single:
-                w.real, w.imag = parts[0, m], parts[1, m]
-            # A filter that starts from nothing would put b1 w[0] into the first sample.
-            initial = start[m] - gain * b1[m] * w[..., :1]
-            z = lfilter([gain * b1[m], gain * b0[m]], [1.0, -a[m]], w, axis=-1, zi=initial)[0]
-            parts[0, m], parts[1, m] = z.real, z.imag
-        y = np.hstack([right.real, -right.imag]) @ parts.reshape(2 * count, -1)
-        return y.reshape(len(y), *batch)
+        product, gain, decay = self._blocks
+        inputs, samples = len(u), u.shape[-1]
+        runs = u.reshape(inputs, -1, samples)
+        start = np.zeros(len(decay)) if x0 is None else to_modal @ x0
+        # A row a block: its input, and the state z~ it starts with, real parts and imaginary ones.
+        rows = _in_blocks(runs, _BLOCK, 2 * len(decay))
+        added = rows[..., : inputs * _BLOCK] @ gain
+        first = start - (runs[..., 0].T @ left.T) * self.coefficients[2]
+        re, im = (rows[..., inputs * _BLOCK + i * len(decay) :] for i in (0, 1))
+        for m, a in enumerate(decay):
+            z = _starts(added[..., m] + 1j * added[..., len(decay) + m], a, first[:, m])
+            re[..., m], im[..., m] = z.real, z.imag
+        y = (rows.reshape(-1, rows.shape[-1]) @ product).reshape(-1, len(right), _BLOCK)
+        y = y.transpose(1, 0, 2).reshape(len(right), runs.shape[1], -1)[..., :samples]
+        # The first sample is the start itself, to the last digit.
+        y[..., 0] = (right @ start).real[:, None]
+        return y.reshape(len(right), *u.shape[1:])
+
+    @cached_property
+    def _blocks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """What runs a block of samples, from the module's two lines.
+
+        From its p B inputs and 2 m parts of z~, to its q B outputs; from the inputs to the parts
+        of what they add to the next block's z~; and a^B.
+        """
+        poles, left, right, _ = self.system.modal
+        powers, carried, pulse = _pulse(poles, self.coefficients, self.time_step, _BLOCK)
+        kernel = ((right * pulse.T[:, None]) @ left).real
+        through = _delayed(np.moveaxis(kernel, 0, -1)).transpose(1, 2, 0, 3)
+        free = right.T[:, :, None] * powers[:, None, :-1]
+        outputs = len(right) * _BLOCK
+        rows = [m.reshape(-1, outputs) for m in (through, free.real, -free.imag)]
+        gain = (left.T[:, None] * carried.T).reshape(-1, len(poles))
+        return np.vstack(rows), np.hstack([gain.real, gain.imag]), powers[:, -1]
 
 
 @dataclass(frozen=True)
 class SampledModes:
     """Independent oscillators ready to be run at one time step, all from rest.
 
-    Made by `sampled_modes`.
+    Made by `sampled_modes`. What a block of samples starts with are, of a mode that swings, the
+    parts of z~ of its pole with the positive imaginary part; of one that creeps, z~ of both poles.
 
     Attributes
     ----------
-    coefficients : tuple of ndarray, shape (modes,), complex
-        a, b0 and b1 of the pole with the positive imaginary part; see `ramp_coefficients`.
-    poles : ndarray, shape (modes,), complex
+    first : ndarray, shape (2, modes)
+        z~ at the first sample per unit of its force.
+    gain : ndarray, shape (modes, B, 2)
+        From the forces of a block to what they add to the next one's start.
+    decay : ndarray, shape (2, modes), complex
+        a^B of both poles.
+    within : ndarray, shape (2, modes, B + 2, B)
+        From the forces and the start of a block to coordinates and velocities.
     others : dict of SampledResponse
-        Modes that do not swing, by number from 0; the general response runs them.
+        Modes that are all but critically damped or have no stiffness, by number from 0; the general
+        response runs them.
     """
 
     __repr__ = brief
 
-    coefficients: tuple[np.ndarray, np.ndarray, np.ndarray]
-    poles: np.ndarray
+    first: np.ndarray
+    gain: np.ndarray
+    decay: np.ndarray
+    within: np.ndarray
     others: dict[int, SampledResponse]
 
     def __call__(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -249,35 +282,113 @@ class SampledModes:
 
         The first sample of the force does not move anything.
         """
-        q, velocity = np.empty_like(force), np.empty_like(force)
-        for m, (f, a, b0, b1, s) in enumerate(
-            zip(force, *self.coefficients, self.poles, strict=True)
+        size, samples = self.gain.shape[1], force.shape[1]
+        rows = _in_blocks(force[None], size, 2)
+        added = rows[..., :size] @ self.gain
+        for own, more, a, start in zip(
+            rows, added, self.decay.T, self.first.T * force[:, :1], strict=True
         ):
-            if m in self.others:
-                q[m], velocity[m] = self.others[m](f[None])
-                continue
-            z = lfilter([b1, b0], [1.0, -a], f, zi=-b1 * f[:1])[0]
-            np.divide(z.imag, s.imag, out=q[m])
-            np.multiply(q[m], s.real, out=velocity[m])
-            velocity[m] += z.real
+            if a[0].imag or a[1].imag:
+                z = _starts(more[:, 0] + 1j * more[:, 1], a[0], complex(*start))
+                own[:, size], own[:, size + 1] = z.real, z.imag
+            else:
+                for i in (0, 1):
+                    own[:, size + i] = _starts(more[:, i], a[i].real, start[i])
+        q, velocity = ((rows @ m).reshape(len(force), -1)[:, :samples] for m in self.within)
+        q[:, 0] = velocity[:, 0] = 0.0
+        for m, system in self.others.items():
+            q[m], velocity[m] = system(force[m][None])
         return q, velocity
 
 
 def sampled_modes(omega: np.ndarray, ratio: np.ndarray, time_step: float) -> SampledModes:
     r"""Prepare modes ``q'' + 2 ratio omega q' + omega^2 q = f`` for one time step (s).
 
-    With the pole ``s = -ratio omega + i omega_d`` and ``z' = s z + f``, the oscillator's impulse
-    response ``exp(-ratio omega t) sin(omega_d t) / omega_d`` gives ``q = Im(z) / omega_d`` and ``q'
-    = Im(s z) / omega_d``: one filter a mode, without eigenvectors.
+    With both poles, ``z_i' = s_i z_i + f`` gives ``q = (z1 - z2) / (s1 - s2)`` and ``q' = (s1 z1 -
+    s2 z2) / (s1 - s2)``, without eigenvectors. Where the mode swings the poles are conjugates, and
+    these are ``Im(z1) / omega_d`` and ``Im(s1 z1) / omega_d``: one pole is enough.
     """
     omega, ratio = np.asarray(omega, dtype=float), np.asarray(ratio, dtype=float)
-    swings = (omega > 0.0) & (ratio < _NEARLY_CRITICAL)
-    safe = np.where(swings, omega, 1.0), np.where(swings, ratio, 0.0)
-    poles = -safe[0] * safe[1] + 1j * safe[0] * np.sqrt(1.0 - safe[1] ** 2)
+    special = (omega <= 0.0) | (np.abs(ratio - 1.0) <= _NEARLY_CRITICAL)
+    omega_, ratio_ = np.where(special, 1.0, omega), np.where(special, 0.0, ratio)
+    apart = np.sqrt((ratio_ - 1.0).astype(complex)) * np.sqrt(ratio_ + 1.0)
+    fast, swings = ratio_ + apart, apart.imag > 0.0
+    # The slow one of two real roots by their product, which is 1: their difference loses digits.
+    # Conjugates are made so to the last digit.
+    poles = -omega_ * np.array([np.where(swings, fast.conj(), 1.0 / fast), fast])
+    coefficients = ramp_coefficients(poles, time_step)
+    powers, carried, pulse = _pulse(poles, coefficients, time_step, _MODES_BLOCK)
+    outputs = np.array([np.ones_like(poles), poles]) * [[1.0], [-1.0]] / (poles[0] - poles[1])
+    # Of modes that swing the second pole only doubles what the first gives.
+    weight = np.where(swings, [[2.0], [0.0]], 1.0)
+    share = outputs * weight
+    kernel = np.einsum("opm,pmj->omj", share, pulse).real
+    free = share[..., None] * powers[..., :-1]
+    both = free[:, 0].real, -free[:, 0].imag
+    states = np.where(swings[:, None], both, free.real.swapaxes(0, 1))
+    within = np.concatenate([_delayed(kernel), np.moveaxis(states, 0, 2)], axis=2)
+    gain = np.where(swings[:, None], [carried[0].real, carried[0].imag], carried.real)
+    first = -coefficients[2]
+    first = np.where(swings, [first[0].real, first[0].imag], first.real)
     others = {
-        int(m): oscillator(omega[m], ratio[m]).sampled(time_step) for m in np.flatnonzero(~swings)
+        int(m): oscillator(omega[m], ratio[m]).sampled(time_step) for m in np.flatnonzero(special)
     }
-    return SampledModes(ramp_coefficients(poles, time_step), poles, others)
+    return SampledModes(first, np.moveaxis(gain, 0, -1), powers[..., -1], within, others)
+
+
+def _pulse(
+    poles: np.ndarray, coefficients: tuple[np.ndarray, ...], time_step: float, size: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return what the module's two lines for a block of so many samples consist of.
+
+    Returns
+    -------
+    powers : ndarray, shape (..., size + 1)
+        a^k.
+    carried : ndarray, shape (..., size)
+        ``c a^(size-1-j)``: what a unit of w[j] adds to the next block's start.
+    pulse : ndarray, shape (..., size)
+        ``b1, c, c a, ...``: z[k] for w = 1, 0, 0 ...
+    """
+    a, b0, b1 = coefficients
+    powers = np.exp(poles[..., None] * time_step * np.arange(size + 1))
+    c = (b0 + a * b1)[..., None]
+    pulse = np.concatenate([b1[..., None], c * powers[..., : size - 1]], axis=-1)
+    return powers, c * powers[..., size - 1 :: -1], pulse
+
+
+def _delayed(kernel: np.ndarray) -> np.ndarray:
+    """Return the matrix from input j to output k of a block, ``kernel[..., k - j]``, else zero."""
+    size = kernel.shape[-1]
+    lag = np.arange(size) - np.arange(size)[:, None]
+    return np.where(lag >= 0, kernel[..., np.maximum(lag, 0)], 0.0)
+
+
+def _in_blocks(u: np.ndarray, size: int, more: int) -> np.ndarray:
+    """Return a row for each block of samples, shape (runs, blocks, inputs size + more).
+
+    Input by input, from shape (inputs, runs, samples), and room for `more` numbers. Zeros fill the
+    last block up.
+    """
+    inputs, runs, samples = u.shape
+    whole, rest = divmod(samples, size)
+    rows = np.zeros((runs, whole + (rest > 0), inputs * size + more))
+    for i, own in enumerate(u):
+        place = rows[..., i * size : (i + 1) * size]
+        place[:, :whole] = own[:, : whole * size].reshape(runs, whole, size)
+        if rest:
+            place[:, whole, :rest] = own[:, whole * size :]
+    return rows
+
+
+def _starts(added: np.ndarray, decay: complex, first: np.ndarray | complex) -> np.ndarray:
+    """Return ``z[i+1] = decay z[i] + added[i]`` from the first one on, shape (..., blocks)."""
+    z = np.empty_like(added)
+    z[..., 0] = first
+    later = added[..., :-1]
+    if later.size:
+        z[..., 1:] = lfilter([1.0], [1.0, -decay], later, zi=(decay * z[..., :1]))[0]
+    return z
 
 
 def moved_on(
