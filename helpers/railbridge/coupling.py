@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -27,7 +28,7 @@ from .response import SampledModes
 from .settings import Settings
 from .tracks import Track
 from .trains import AnyTrain, Car, Wheel
-from .vehicles import Vehicle, WheelResponse
+from .vehicles import Vehicle, WheelForces, WheelResponse
 
 __all__ = ["CoupledCar", "Coupling", "DeckState", "FixedPoint", "ForcesAdded", "iterate", "prepare"]
 
@@ -68,7 +69,7 @@ class CoupledCar:
         Its load stations, where the deck is loaded.
     load_matrix : ndarray, shape (stations, 3 or 5, wheels, 2)
         From wheel forces to station loads about the deck axis.
-    respond : callable or None
+    respond : WheelForces or None
         See `Vehicle.sampled`; None where there is no suspension.
     """
 
@@ -79,12 +80,18 @@ class CoupledCar:
     axles: np.ndarray
     loads: np.ndarray
     load_matrix: np.ndarray = field(repr=False)
-    respond: WheelResponse | None = field(repr=False)
+    respond: WheelForces | None = field(repr=False)
 
     @property
     def on_deck(self) -> int:
         """Samples in the window."""
         return self.window.stop - self.window.start
+
+    @cached_property
+    def loading(self) -> list[slice]:
+        """Which wheels load each station: those that stand on it."""
+        acts = np.any(self.load_matrix != 0.0, axis=(1, 3))
+        return [slice(*(np.flatnonzero(own)[[0, -1]] + [0, 1]).tolist()) for own in acts]
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,15 +144,21 @@ class Coupling:
         """
         result = []
         for c, own in zip(self.cars, added, strict=True):
-            forces = c.rigid[..., c.window] + c.static[..., None] + own
-            for station, matrix in zip(c.loads, c.load_matrix, strict=True):
-                start = int(self.loads.starts[station]) - c.window.start
-                stop = start + int(self.loads.counts[station])
-                met = forces[..., start:stop]
-                if margin:
-                    around = np.arange(start - margin, stop + margin)
-                    met = forces[..., np.clip(around, 0, c.on_deck - 1)]
-                result.append(np.tensordot(matrix, met, 2))
+            for station, matrix, wheels in zip(c.loads, c.load_matrix, c.loading, strict=True):
+                matrix = matrix[:, wheels].reshape(len(matrix), -1)
+                count = int(self.loads.counts[station]) + 2 * margin
+                if c.respond is None:
+                    # Bare axle loads are what they are at rest.
+                    load = (matrix @ c.static[wheels].ravel())[:, None]
+                    result.append(np.broadcast_to(load, (len(matrix), count)))
+                    continue
+                start = int(self.loads.starts[station]) - c.window.start - margin
+                within = slice(max(start, 0), min(start + count, c.on_deck))
+                forces = c.rigid[wheels, :, c.window][..., within] + own[wheels, :, within]
+                forces += c.static[wheels, :, None]
+                load = matrix @ forces.reshape(matrix.shape[1], -1)
+                missing = within.start - start, start + count - within.stop
+                result.append(np.pad(load, ((0, 0), missing), "edge") if any(missing) else load)
         return result
 
     def deck_state(self, loads: list[np.ndarray]) -> DeckState:
@@ -173,32 +186,41 @@ class Coupling:
             stations = np.array([c.axles[i] for c in cars])
             for alike in self.axles.alike(stations):
                 moved, rate = self.axles.motion(deck, stations[alike])
-                starts = self.axles.starts[stations[alike]] - first[alike]
-                counts = self.axles.counts[stations[alike]]
+                starts = (self.axles.starts[stations[alike]] - first[alike]).tolist()
+                counts = self.axles.counts[stations[alike]].tolist()
+                places = list(zip(alike.tolist(), starts, counts, strict=True))
                 for wheel in axle.wheels:
                     own = u[wheel.number - 1]
                     met = self._wheel_input(cars[0].car.vehicle, wheel, moved, rate)
                     for direction, values in enumerate(met):
-                        for n, c in enumerate(alike):
-                            window = slice(starts[n], starts[n] + counts[n])
-                            own[direction, c, window] = values[n, : counts[n]]
+                        if values is None:
+                            continue
+                        for (c, start, count), part in zip(places, values, strict=True):
+                            own[direction, c, start : start + count] = part[:count]
         return u
 
     def _wheel_input(
         self, vehicle: Vehicle, wheel: Wheel, moved: np.ndarray, rate: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    ) -> tuple[np.ndarray | None, np.ndarray]:
         """Return k w + c w' of one wheel, lateral and vertical, where its axle meets this motion.
 
-        Each of shape (stations, n), as y, z and roll of the motion are.
+        Each of shape (stations, n), as y, z and roll of the motion are; None where the wheel feels
+        nothing sideways.
         """
         contact = wheel.number - 1
         k, c = vehicle.contact_stiffness[contact], vehicle.contact_damping[contact]
         vertical = k[1] * moved[1] + c[1] * rate[1]
         if self.settings.feedback != "all":
-            return np.zeros_like(vertical), vertical
-        roll = [k[d] * moved[2] + c[d] * rate[2] for d in (0, 1)]
-        vertical += (self.settings.track_offset + wheel.y) * roll[1]
-        lateral = k[0] * moved[0] + c[0] * rate[0] - self.deck.track_height * roll[0]
+            return None, vertical
+        has = self.deck.has
+        if has["roll"]:
+            roll = k[1] * moved[2] + c[1] * rate[2]
+            vertical += (self.settings.track_offset + wheel.y) * roll
+        if not (k[0] or c[0]) or not (has["y"] or has["roll"]):
+            return None, vertical
+        lateral = k[0] * moved[0] + c[0] * rate[0]
+        if has["roll"] and self.deck.track_height:
+            lateral -= self.deck.track_height * (k[0] * moved[2] + c[0] * rate[2])
         return lateral, vertical
 
     def train_pass(self, state: DeckState) -> ForcesAdded:
@@ -231,10 +253,8 @@ class Coupling:
         total[..., c.window] += added[c.car.number - 1]
         behind = len(self.time) - c.window.stop
         if felt is not None and behind > 0 and c.respond is not None:
-            # The car's whole time on the deck is run once more, with the level track behind added.
             u = self.support_input(felt, [c])
-            longer = np.concatenate([u, np.zeros((*u.shape[:3], behind))], axis=3)
-            total[..., c.window.stop :] += c.respond(longer)[:, :, 0, u.shape[3] :]
+            total[..., c.window.stop :] += c.respond.after(u, behind)[:, :, 0]
         return total
 
     def body_accelerations(self, state: DeckState) -> list[np.ndarray]:
@@ -290,7 +310,7 @@ def prepare(train: AnyTrain, deck: Guideway, track: Track, settings: Settings) -
     passage = s.passage
     rigid = train.rigid_forces(track, passage)
     respond = {id(v): v.sampled(s.time_step) for v, _ in train.kinds()}
-    cars, load_delays, axles = [], [], 0
+    cars, load_delays, count = [], [], 0
     for car, own in zip(train.formation, rigid, strict=True):
         condensation = car.condensation(s.loads)
         matrix = condensation.matrix.copy()
@@ -301,24 +321,28 @@ def prepare(train: AnyTrain, deck: Guideway, track: Track, settings: Settings) -
                 own,
                 car.static_forces,
                 _window(car, deck.length, passage.advance, s.samples),
-                axles + np.arange(len(car.axles)),
+                count + np.arange(len(car.axles)),
                 len(load_delays) + np.arange(len(condensation.offsets)),
                 matrix,
                 respond.get(id(car.vehicle)),
             )
         )
-        axles += len(car.axles)
+        count += len(car.axles)
         load_delays += (car.centre - condensation.offsets).tolist()
     sampling = s.speed, s.time_step, s.samples
     axle_delays = np.array([axle.delay for axle in train.placed_axles])
+    axles = deck.stations(axle_delays, *sampling)
+    # Wheel loads act where the deck is felt.
+    same = np.array_equal(axle_delays, load_delays)
+    loads = axles if same else deck.stations(np.array(load_delays), *sampling)
     return Coupling(
         train=train,
         deck=deck,
         settings=s,
         time=frozen(np.arange(s.samples) * s.time_step),
         cars=tuple(cars),
-        axles=deck.stations(axle_delays, *sampling),
-        loads=deck.stations(np.array(load_delays), *sampling),
+        axles=axles,
+        loads=loads,
         load_delays=np.array(load_delays),
         modes=deck.sampled(s.time_step) if isinstance(deck, Deck) else None,
     )

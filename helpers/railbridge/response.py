@@ -28,6 +28,7 @@ changes. (A real second-order filter for q would save half; but its coefficients
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -210,24 +211,87 @@ class SampledResponse:
         u = np.asarray(u, dtype=float)
         if self.coefficients is None:
             return self.system.stepped(u, x0, self.time_step)
-        _, left, right, to_modal = self.system.modal
-        product, gain, decay = self._blocks
-        inputs, samples = len(u), u.shape[-1]
-        runs = u.reshape(inputs, -1, samples)
-        start = np.zeros(len(decay)) if x0 is None else to_modal @ x0
-        # A row a block: its input, and the state z~ it starts with, real parts and imaginary ones.
-        rows = _in_blocks(runs, _BLOCK, 2 * len(decay))
-        added = rows[..., : inputs * _BLOCK] @ gain
-        first = start - (runs[..., 0].T @ left.T) * self.coefficients[2]
-        re, im = (rows[..., inputs * _BLOCK + i * len(decay) :] for i in (0, 1))
-        for m, a in enumerate(decay):
-            z = _starts(added[..., m] + 1j * added[..., len(decay) + m], a, first[:, m])
-            re[..., m], im[..., m] = z.real, z.imag
-        y = (rows.reshape(-1, rows.shape[-1]) @ product).reshape(-1, len(right), _BLOCK)
-        y = y.transpose(1, 0, 2).reshape(len(right), runs.shape[1], -1)[..., :samples]
+        _, _, right, to_modal = self.system.modal
+        start = np.zeros(right.shape[1]) if x0 is None else to_modal @ x0
+        runs = u.reshape(len(u), -1, u.shape[-1])
+        rows, _ = self._rows(runs, start)
+        y = self._outputs(rows, self._blocks[0])[..., : u.shape[-1]]
         # The first sample is the start itself, to the last digit.
         y[..., 0] = (right @ start).real[:, None]
-        return y.reshape(len(right), *u.shape[1:])
+        return y.reshape(len(y), *u.shape[1:])
+
+    def after(self, u: np.ndarray, samples: int) -> np.ndarray:
+        """Return how it decays from the sample behind an input's last, where the input is gone.
+
+        Parameters
+        ----------
+        u : ndarray, shape (p, ..., n)
+            From rest.
+        samples : int
+
+        Returns
+        -------
+        ndarray, shape (q, ..., samples)
+        """
+        n = u.shape[-1]
+        if self.coefficients is None:
+            longer = np.concatenate([u, np.zeros((*u.shape[:-1], samples))], axis=-1)
+            return self(longer)[..., n:]
+        product, _, decay = self._blocks
+        rows, end = self._rows(u.reshape(len(u), -1, n), np.zeros(len(decay)))
+        blocks = -(-samples // _BLOCK)
+        passed = self.time_step * _BLOCK * np.arange(blocks)[:, None]
+        z = end[:, None] * np.exp(self.system.modal[0] * passed)
+        y = [
+            self._outputs(rows[:, -1:], product),
+            self._outputs(np.concatenate([z.real, z.imag], axis=2), product[-2 * len(decay) :]),
+        ]
+        # What fills the last block up is behind the input already.
+        first = (n - 1) % _BLOCK + 1
+        y = np.concatenate(y, axis=2)[..., first : first + samples]
+        return y.reshape(len(y), *u.shape[1:-1], samples)
+
+    def _rows(self, runs: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return a row a block: its input, and the z~ it starts with, real parts and imaginary ones.
+
+        Parameters
+        ----------
+        runs : ndarray, shape (p, runs, n)
+        start : ndarray, shape (m,)
+
+        Returns
+        -------
+        rows : ndarray, shape (runs, blocks, p B + 2 m)
+            Inputs that act on nothing left out.
+        end : ndarray, shape (runs, m)
+            z~ behind the last block.
+        """
+        _, gain, decay = self._blocks
+        left, act = self.system.modal[1], self._acting
+        rows = _in_blocks([runs[i] for i in act], _BLOCK, 2 * len(decay))
+        width = len(act) * _BLOCK
+        added = rows[..., :width] @ gain
+        first = start - (runs[act, :, 0].T @ left[:, act].T) * self.coefficients[2]
+        end = np.empty_like(first)
+        for m, a in enumerate(decay):
+            more = added[..., m] + 1j * added[..., len(decay) + m]
+            z = _starts(more, a, first[:, m])
+            rows[..., width + m], rows[..., width + len(decay) + m] = z.real, z.imag
+            end[:, m] = a * z[:, -1] + more[:, -1]
+        return rows, end
+
+    @staticmethod
+    def _outputs(rows: np.ndarray, product: np.ndarray) -> np.ndarray:
+        """Return the outputs of blocks, shape (q, runs, samples of all blocks)."""
+        runs, blocks, width = rows.shape
+        y = (rows.reshape(-1, width) @ product).reshape(runs * blocks, -1, _BLOCK)
+        return y.transpose(1, 0, 2).reshape(y.shape[1], runs, -1)
+
+    @cached_property
+    def _acting(self) -> np.ndarray:
+        """Numbers of the inputs that act on anything: a wheel may have no spring sideways."""
+        found = np.flatnonzero(np.any(self.system.b != 0.0, axis=0))
+        return found if len(found) else np.zeros(1, dtype=int)
 
     @cached_property
     def _blocks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -237,6 +301,7 @@ class SampledResponse:
         of what they add to the next block's z~; and a^B.
         """
         poles, left, right, _ = self.system.modal
+        left = left[:, self._acting]
         powers, carried, pulse = _pulse(poles, self.coefficients, self.time_step, _BLOCK)
         kernel = ((right * pulse.T[:, None]) @ left).real
         through = _delayed(np.moveaxis(kernel, 0, -1)).transpose(1, 2, 0, 3)
@@ -283,7 +348,7 @@ class SampledModes:
         The first sample of the force does not move anything.
         """
         size, samples = self.gain.shape[1], force.shape[1]
-        rows = _in_blocks(force[None], size, 2)
+        rows = _in_blocks([force], size, 2)
         added = rows[..., :size] @ self.gain
         for own, more, a, start in zip(
             rows, added, self.decay.T, self.first.T * force[:, :1], strict=True
@@ -364,15 +429,15 @@ def _delayed(kernel: np.ndarray) -> np.ndarray:
     return np.where(lag >= 0, kernel[..., np.maximum(lag, 0)], 0.0)
 
 
-def _in_blocks(u: np.ndarray, size: int, more: int) -> np.ndarray:
+def _in_blocks(u: Sequence[np.ndarray], size: int, more: int) -> np.ndarray:
     """Return a row for each block of samples, shape (runs, blocks, inputs size + more).
 
-    Input by input, from shape (inputs, runs, samples), and room for `more` numbers. Zeros fill the
-    last block up.
+    Input by input, each of shape (runs, samples), and room for `more` numbers. Zeros fill the last
+    block up.
     """
-    inputs, runs, samples = u.shape
+    runs, samples = u[0].shape
     whole, rest = divmod(samples, size)
-    rows = np.zeros((runs, whole + (rest > 0), inputs * size + more))
+    rows = np.zeros((runs, whole + (rest > 0), len(u) * size + more))
     for i, own in enumerate(u):
         place = rows[..., i * size : (i + 1) * size]
         place[:, :whole] = own[:, : whole * size].reshape(runs, whole, size)
