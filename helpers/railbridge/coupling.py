@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -30,7 +31,17 @@ from .tracks import Track
 from .trains import AnyTrain, Car, Wheel
 from .vehicles import Vehicle, WheelForces, WheelResponse
 
-__all__ = ["CoupledCar", "Coupling", "DeckState", "FixedPoint", "ForcesAdded", "iterate", "prepare"]
+__all__ = [
+    "CoupledCar",
+    "Coupling",
+    "DeckState",
+    "FixedPoint",
+    "ForcesAdded",
+    "iterate",
+    "left",
+    "prepare",
+    "settled",
+]
 
 ForcesAdded = list[np.ndarray]
 """What the deck's motion adds to each car's wheel forces while it is on the deck, N.
@@ -233,8 +244,13 @@ class Coupling:
                 added[c.car.number - 1] = forces[:, :, i, : c.on_deck]
         return added
 
-    def wheel_forces(self, added: ForcesAdded, felt: DeckState | None) -> np.ndarray:
-        """Return all wheel forces on the deck, N, shape (wheels, 2, n), static part included.
+    def wheel_forces(
+        self,
+        added: ForcesAdded,
+        felt: DeckState | None,
+        cars: Sequence[CoupledCar] | None = None,
+    ) -> np.ndarray:
+        """Return wheel forces on the deck, N, shape (wheels, 2, n), static part included.
 
         Parameters
         ----------
@@ -242,20 +258,25 @@ class Coupling:
         felt : DeckState or None
             The deck's motion that `added` answers to: behind the deck a car's motion decays freely
             on the track. None: a rigid deck.
+        cars : sequence of CoupledCar, optional
+            Whose; all if not given.
         """
-        return np.concatenate([self.car_wheel_forces(c, added, felt) for c in self.cars])
-
-    def car_wheel_forces(
-        self, c: CoupledCar, added: ForcesAdded, felt: DeckState | None
-    ) -> np.ndarray:
-        """Return what `wheel_forces` gives for one car, shape (its wheels, 2, n)."""
-        total = c.rigid + c.static[..., None]
-        total[..., c.window] += added[c.car.number - 1]
-        behind = len(self.time) - c.window.stop
-        if felt is not None and behind > 0 and c.respond is not None:
-            u = self.support_input(felt, [c])
-            total[..., c.window.stop :] += c.respond.after(u, behind)[:, :, 0]
-        return total
+        cars = self.cars if cars is None else cars
+        result = np.empty((sum(len(c.rigid) for c in cars), 2, len(self.time)))
+        places = np.split(result, np.cumsum([len(c.rigid) for c in cars])[:-1])
+        alike: dict[int, list[tuple[CoupledCar, np.ndarray]]] = {}
+        for c, total in zip(cars, places, strict=True):
+            np.add(c.rigid, c.static[..., None], out=total)
+            total[..., c.window] += added[c.car.number - 1]
+            if c.respond is not None and felt is not None and c.window.stop < len(self.time):
+                alike.setdefault(id(c.car.vehicle), []).append((c, total))
+        for own in alike.values():
+            met = self.support_input(felt, [c for c, _ in own])
+            for i, (c, total) in enumerate(own):
+                u = met[:, :, i : i + 1, : c.on_deck]
+                behind = total[..., c.window.stop :]
+                behind += c.respond.after(u, behind.shape[2])[:, :, 0]
+        return result
 
     def body_accelerations(self, state: DeckState) -> list[np.ndarray]:
         """Return what the deck's motion adds to every car body's accelerations, m/s2.
@@ -302,6 +323,18 @@ class Coupling:
             # Forces beyond all numbers give NaN, which max() would take for no change at all.
             worst = float(np.maximum(worst, np.max(moved / np.maximum(size, floor))))
         return worst
+
+    def moved(self, new: DeckState, old: DeckState) -> float:
+        """Return by what share of its largest motion the deck's motion differs from another one.
+
+        A motion is measured by the root of the sum of q^2 over the modes, at its largest over
+        time. Since shapes are mass-normalised, that is the root of the mass times the mean square
+        of the displacement, the whole deck and all directions counted. Not finite where the motion
+        is not.
+        """
+        size, change = (np.einsum("mt,mt->t", q, q).max() for q in (new.q, new.q - old.q))
+        # A deck that does not move has not changed.
+        return float(np.sqrt(change / np.maximum(size, np.finfo(float).tiny)))
 
 
 def prepare(train: AnyTrain, deck: Guideway, track: Track, settings: Settings) -> Coupling:
@@ -368,10 +401,11 @@ class FixedPoint:
     passes : tuple of list of ndarray
         What the deck's motion adds to the wheel forces, see `ForcesAdded`.
     changes : tuple of float
-        See `Coupling.change`.
+        See `Coupling.change`; or `Coupling.moved`, where the tolerance is one of displacement.
     converged : bool
     states : dict of DeckState
-        The deck's state under the first pass and under the last but one, which the last answers to.
+        The deck's state under the first pass and under the last but one, which the last answers to;
+        under the last as well, where it was needed.
     """
 
     passes: tuple[ForcesAdded, ...]
@@ -381,23 +415,23 @@ class FixedPoint:
 
 
 def iterate(coupling: Coupling, progress: Callable[[str], None] | None = None) -> FixedPoint:
-    """Repeat the steps until the change is below the tolerance twice in a row.
+    """Repeat the steps until what the tolerance speaks of has settled, see `settled`.
 
     Or for a given number of passes.
     """
     s = coupling.settings
     passes, changes = [coupling.nothing_added()], []
     share = s.relaxation if isinstance(s.relaxation, float) else 1.0
-    previous, below = None, 0
+    previous = None
     states: dict[int, DeckState] = {}
     for i in range(s.iterations or s.max_iterations):
         old = passes[-1]
-        state = coupling.deck_state(coupling.station_loads(old))
-        states = {n: kept for n, kept in states.items() if n == 0} | {i: state}
-        new = coupling.train_pass(state)
-        changes.append(coupling.change(new, old))
-        if progress is not None:
-            progress(f"iteration {len(changes)}: change {changes[-1]:.1e}")
+        if i not in states:
+            states[i] = coupling.deck_state(coupling.station_loads(old))
+        states = {n: states[n] for n in (0, i)}
+        new = coupling.train_pass(states[i])
+        if s.tolerance_of == "forces":
+            changes.append(coupling.change(new, old))
         if s.relaxation is not None:
             step = [n - o for n, o in zip(new, old, strict=True)]
             if s.relaxation == "aitken" and previous is not None:
@@ -405,10 +439,42 @@ def iterate(coupling: Coupling, progress: Callable[[str], None] | None = None) -
             new = [o + share * d for o, d in zip(old, step, strict=True)]
             previous = step
         passes.append(new)
-        below = below + 1 if changes[-1] < s.tolerance else 0
-        if not np.isfinite(changes[-1]) or (s.iterations is None and below == 2):
+        if s.tolerance_of == "displacement":
+            states[i + 1] = coupling.deck_state(coupling.station_loads(new))
+            changes.append(coupling.moved(states[i + 1], states[i]))
+        if progress is not None:
+            progress(f"iteration {len(changes)}: change {changes[-1]:.1e}")
+        if not np.isfinite(changes[-1]) or (s.iterations is None and settled(changes, s)):
             break
-    return FixedPoint(tuple(passes), tuple(changes), below >= 2, states)
+    return FixedPoint(tuple(passes), tuple(changes), settled(changes, s), states)
+
+
+def settled(changes: Sequence[float], settings: Settings) -> bool:
+    """Return whether an iteration may stop.
+
+    Forces: two changes in a row below the tolerance. Displacement: the last change and what is
+    `left` are below it. What is left alone would let go too early, since every pass carries the
+    solution some cars further down the train and the changes fall ever more slowly on the way.
+    """
+    if settings.tolerance_of == "displacement":
+        return max(changes[-1], left(changes)) < settings.tolerance
+    return len(changes) > 1 and max(changes[-2:]) < settings.tolerance
+
+
+def left(changes: Sequence[float]) -> float:
+    """Return what further passes would still change, from the changes so far.
+
+    If each is at most rho times the one before, all that follow the last one, d, come to
+    ``d (rho + rho^2 + ...) = d rho / (1 - rho)``. For rho the larger of the last two ratios is
+    taken, since changes may fall fast and then rise again; of changes that do not fall nothing is
+    known, nor of a single one that is not zero.
+    """
+    last = changes[-1]
+    if last == 0.0:
+        return 0.0
+    ratios = [new / old if old else np.inf for old, new in pairwise(changes[-3:])]
+    ratio = max(ratios, default=np.inf)
+    return last * ratio / (1.0 - ratio) if ratio < 1.0 else np.inf
 
 
 def _aitken(share: float, step: list[np.ndarray], previous: list[np.ndarray]) -> float:

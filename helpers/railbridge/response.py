@@ -50,6 +50,8 @@ _NEARLY_CRITICAL = 1e-4
 """Distance of a damping ratio from 1 within which ``(z1 - z2) / (s1 - s2)`` would lose digits."""
 _BLOCK, _MODES_BLOCK = 8, 16
 """Samples of a block: longer ones multiply more, shorter ones go from block to block more often."""
+_TOGETHER = 256
+"""Blocks multiplied at once: what they give is put in its place while it is at hand."""
 
 
 def ramp_coefficients(
@@ -252,7 +254,7 @@ class SampledResponse:
         return y.reshape(len(y), *u.shape[1:-1], samples)
 
     def _rows(self, runs: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return a row a block: its input, and the z~ it starts with, real parts and imaginary ones.
+        """Return a row a block: its input, and the z~ it starts with, all real parts first.
 
         Parameters
         ----------
@@ -283,9 +285,14 @@ class SampledResponse:
     @staticmethod
     def _outputs(rows: np.ndarray, product: np.ndarray) -> np.ndarray:
         """Return the outputs of blocks, shape (q, runs, samples of all blocks)."""
-        runs, blocks, width = rows.shape
-        y = (rows.reshape(-1, width) @ product).reshape(runs * blocks, -1, _BLOCK)
-        return y.transpose(1, 0, 2).reshape(y.shape[1], runs, -1)
+        runs, blocks, _ = rows.shape
+        y = np.empty((product.shape[1] // _BLOCK, runs, blocks, _BLOCK))
+        for own, r in zip(rows, range(runs), strict=True):
+            for first in range(0, blocks, _TOGETHER):
+                some = slice(first, first + _TOGETHER)
+                part = (own[some] @ product).reshape(-1, len(y), _BLOCK)
+                y[:, r, some] = part.transpose(1, 0, 2)
+        return y.reshape(len(y), runs, -1)
 
     @cached_property
     def _acting(self) -> np.ndarray:
