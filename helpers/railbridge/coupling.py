@@ -142,8 +142,8 @@ class Coupling:
     modes: SampledModes | None
 
     def nothing_added(self) -> ForcesAdded:
-        """Return the first guess: the deck adds nothing."""
-        return [np.zeros((len(c.rigid), 2, c.on_deck)) for c in self.cars]
+        """Return the first guess: the deck adds nothing. To be read only."""
+        return [np.broadcast_to(0.0, (len(c.rigid), 2, c.on_deck)) for c in self.cars]
 
     # ---- the deck under the train
 

@@ -423,8 +423,10 @@ class Deck(Guideway):
         static : ndarray, shape (n,)
             The influence line under the present loads.
         """
-        elastic_and_viscous = q + self.internal_damping * velocity
-        return line.modal @ elastic_and_viscous + self._residual(line, modal_force, static)
+        kept = line.modal @ q
+        if self.internal_damping:
+            kept += self.internal_damping * (line.modal @ velocity)
+        return kept + self._residual(line, modal_force, static)
 
     def displaced(
         self,

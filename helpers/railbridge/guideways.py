@@ -64,7 +64,7 @@ class PiecewiseCubic:
         ends = np.append(np.flatnonzero(np.diff(i)) + 1, len(x))
         if len(x) < _LONG * len(ends):
             return np.einsum("pk,kpnc->knc", factors, self.coefficients[i])
-        # A row of places within one piece is one product of matrices.
+        # Places in a row within one piece are one product of matrices.
         own = self.coefficients.reshape(len(self.coefficients), 4, -1)
         result = np.empty((len(x), own.shape[2]))
         for first, last in zip([0, *ends[:-1].tolist()], ends.tolist(), strict=True):

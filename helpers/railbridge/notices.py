@@ -113,9 +113,9 @@ def _not_settled(run: Crossing) -> list[Remark]:
 
 def _pulling(run: Crossing) -> list[Remark]:
     """Name the wheel that pulls on the rail hardest."""
-    static = np.array([wheel.static_load for wheel in run.train.wheels])
     if not run.train.kinds():
         return []  # bare axle loads stay as they are
+    static = np.array([wheel.static_load for wheel in run.train.wheels])
     if static.min() > 0.0 and np.all(run.wheel_forces[:, 1].max(axis=1) <= 0.0):
         return []  # the common case, without further histories
     unloading = np.nan_to_num(run.wheel_unloading)

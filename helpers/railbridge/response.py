@@ -20,10 +20,10 @@ block that starts at z~,
     z~ of the next block = a^B z~ + c (w[B-1] + a w[B-2] + ... + a^(B-1) w[0]).
 
 All blocks of the first line are one product of matrices, input and start to output; only the second
-goes from block to block, and `scipy.signal.lfilter` runs it. A recursion moves one number at a
-time, a product fills the processor: that is ten times faster, and nothing but the order of the sums
-changes. (A real second-order filter for q would save half; but its coefficients, near those of
-``(1 - 1/x)^2``, lose eps / (omega h)^2, which these do not.)
+goes from block to block. A recursion moves one number at a time, a product fills the processor:
+that is ten times faster, and nothing but the order of the sums changes. (A real second-order filter
+for q would save half; but its coefficients, near those of ``(1 - 1/x)^2``, lose
+eps / (omega h)^2, which these do not.)
 """
 
 from __future__ import annotations
@@ -50,6 +50,8 @@ _NEARLY_CRITICAL = 1e-4
 """Distance of a damping ratio from 1 within which ``(z1 - z2) / (s1 - s2)`` would lose digits."""
 _BLOCK, _MODES_BLOCK = 8, 16
 """Samples of a block: longer ones multiply more, shorter ones go from block to block more often."""
+_GROUP = 16
+"""Blocks of a group, see `_starts`."""
 _TOGETHER = 256
 """Blocks multiplied at once: what they give is put in its place while it is at hand."""
 
@@ -264,41 +266,53 @@ class SampledResponse:
         Returns
         -------
         rows : ndarray, shape (runs, blocks, p B + 2 m)
-            Inputs that act on nothing left out.
+            Inputs that act alike added up, and those that act on nothing left out.
         end : ndarray, shape (runs, m)
             z~ behind the last block.
         """
         _, gain, decay = self._blocks
-        left, act = self.system.modal[1], self._acting
-        rows = _in_blocks([runs[i] for i in act], _BLOCK, 2 * len(decay))
-        width = len(act) * _BLOCK
+        acting = self._inputs
+        together = [runs[own].sum(axis=0) if len(own) > 1 else runs[own[0]] for own in acting]
+        rows = _in_blocks(together, _BLOCK, 2 * len(decay))
+        width = len(acting) * _BLOCK
         added = rows[..., :width] @ gain
-        first = start - (runs[act, :, 0].T @ left[:, act].T) * self.coefficients[2]
-        end = np.empty_like(first)
-        for m, a in enumerate(decay):
-            more = added[..., m] + 1j * added[..., len(decay) + m]
-            z = _starts(more, a, first[:, m])
-            rows[..., width + m], rows[..., width + len(decay) + m] = z.real, z.imag
-            end[:, m] = a * z[:, -1] + more[:, -1]
-        return rows, end
+        first = start - (runs[..., 0].T @ self.system.modal[1].T) * self.coefficients[2]
+        parts = np.moveaxis(added.reshape(*added.shape[:2], 2, len(decay)), (2, 3), (0, 1))
+        more = parts[0] + 1j * parts[1]
+        z = _starts(more, decay, first.T)
+        room = rows[..., width:].reshape(*rows.shape[:2], 2, len(decay))
+        room[:, :, 0], room[:, :, 1] = (np.moveaxis(part, 0, -1) for part in (z.real, z.imag))
+        return rows, decay * z[..., -1].T + more[..., -1].T
 
-    @staticmethod
-    def _outputs(rows: np.ndarray, product: np.ndarray) -> np.ndarray:
+    def _outputs(self, rows: np.ndarray, product: np.ndarray) -> np.ndarray:
         """Return the outputs of blocks, shape (q, runs, samples of all blocks)."""
         runs, blocks, _ = rows.shape
-        y = np.empty((product.shape[1] // _BLOCK, runs, blocks, _BLOCK))
-        for own, r in zip(rows, range(runs), strict=True):
+        y = np.empty((len(self.system.c), runs, blocks, _BLOCK))
+        for r, own in enumerate(rows):
             for first in range(0, blocks, _TOGETHER):
                 some = slice(first, first + _TOGETHER)
-                part = (own[some] @ product).reshape(-1, len(y), _BLOCK)
-                y[:, r, some] = part.transpose(1, 0, 2)
+                part = (own[some] @ product).reshape(-1, product.shape[1] // _BLOCK, _BLOCK)
+                for same, values in zip(y, self._same_outputs, strict=True):
+                    same[r, some] = part[:, values]
         return y.reshape(len(y), runs, -1)
 
     @cached_property
-    def _acting(self) -> np.ndarray:
-        """Numbers of the inputs that act on anything: a wheel may have no spring sideways."""
-        found = np.flatnonzero(np.any(self.system.b != 0.0, axis=0))
-        return found if len(found) else np.zeros(1, dtype=int)
+    def _inputs(self) -> list[np.ndarray]:
+        """Numbers of the inputs that act alike, as both wheels of an axle do sideways.
+
+        Without those that act on nothing: a wheel may have no spring in a direction.
+        """
+        found: dict[bytes, list[int]] = {}
+        for number, column in enumerate(self.system.b.T + 0.0):
+            if column.any():
+                found.setdefault(column.tobytes(), []).append(number)
+        return [np.array(own) for own in found.values()] or [np.array([0])]
+
+    @cached_property
+    def _same_outputs(self) -> list[int]:
+        """Which of the outputs that differ each output is."""
+        found: dict[bytes, int] = {}
+        return [found.setdefault(row.tobytes(), len(found)) for row in self.system.c + 0.0]
 
     @cached_property
     def _blocks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -308,7 +322,8 @@ class SampledResponse:
         of what they add to the next block's z~; and a^B.
         """
         poles, left, right, _ = self.system.modal
-        left = left[:, self._acting]
+        left = left[:, [own[0] for own in self._inputs]]
+        right = right[np.unique(self._same_outputs, return_index=True)[1]]
         powers, carried, pulse = _pulse(poles, self.coefficients, self.time_step, _BLOCK)
         kernel = ((right * pulse.T[:, None]) @ left).real
         through = _delayed(np.moveaxis(kernel, 0, -1)).transpose(1, 2, 0, 3)
@@ -328,6 +343,7 @@ class SampledModes:
 
     Attributes
     ----------
+    swings : ndarray of bool, shape (modes,)
     first : ndarray, shape (2, modes)
         z~ at the first sample per unit of its force.
     gain : ndarray, shape (modes, B, 2)
@@ -343,6 +359,7 @@ class SampledModes:
 
     __repr__ = brief
 
+    swings: np.ndarray
     first: np.ndarray
     gain: np.ndarray
     decay: np.ndarray
@@ -357,15 +374,15 @@ class SampledModes:
         size, samples = self.gain.shape[1], force.shape[1]
         rows = _in_blocks([force], size, 2)
         added = rows[..., :size] @ self.gain
-        for own, more, a, start in zip(
-            rows, added, self.decay.T, self.first.T * force[:, :1], strict=True
-        ):
-            if a[0].imag or a[1].imag:
-                z = _starts(more[:, 0] + 1j * more[:, 1], a[0], complex(*start))
-                own[:, size], own[:, size + 1] = z.real, z.imag
-            else:
-                for i in (0, 1):
-                    own[:, size + i] = _starts(more[:, i], a[i].real, start[i])
+        start = self.first * force[:, 0]
+        swings, creeps = self.swings, ~self.swings
+        more = [added[swings, :, 0] + 1j * added[swings, :, 1], *added[creeps].transpose(2, 0, 1)]
+        first = [start[0, swings] + 1j * start[1, swings], *start[:, creeps]]
+        decay = [self.decay[0, swings], *self.decay[:, creeps]]
+        z = _starts(*(np.concatenate(each) for each in (more, decay, first)))
+        z, slow, quick = np.split(z, np.cumsum([swings.sum(), creeps.sum()]))
+        rows[swings, :, size], rows[swings, :, size + 1] = z.real, z.imag
+        rows[creeps, :, size], rows[creeps, :, size + 1] = slow.real, quick.real
         q, velocity = ((rows @ m).reshape(len(force), -1)[:, :samples] for m in self.within)
         q[:, 0] = velocity[:, 0] = 0.0
         for m, system in self.others.items():
@@ -405,7 +422,7 @@ def sampled_modes(omega: np.ndarray, ratio: np.ndarray, time_step: float) -> Sam
     others = {
         int(m): oscillator(omega[m], ratio[m]).sampled(time_step) for m in np.flatnonzero(special)
     }
-    return SampledModes(first, np.moveaxis(gain, 0, -1), powers[..., -1], within, others)
+    return SampledModes(swings, first, np.moveaxis(gain, 0, -1), powers[..., -1], within, others)
 
 
 def _pulse(
@@ -444,23 +461,47 @@ def _in_blocks(u: Sequence[np.ndarray], size: int, more: int) -> np.ndarray:
     """
     runs, samples = u[0].shape
     whole, rest = divmod(samples, size)
-    rows = np.zeros((runs, whole + (rest > 0), len(u) * size + more))
+    rows = np.empty((runs, whole + (rest > 0), len(u) * size + more))
     for i, own in enumerate(u):
         place = rows[..., i * size : (i + 1) * size]
         place[:, :whole] = own[:, : whole * size].reshape(runs, whole, size)
         if rest:
-            place[:, whole, :rest] = own[:, whole * size :]
+            place[:, whole, :rest], place[:, whole, rest:] = own[:, whole * size :], 0.0
     return rows
 
 
-def _starts(added: np.ndarray, decay: complex, first: np.ndarray | complex) -> np.ndarray:
-    """Return ``z[i+1] = decay z[i] + added[i]`` from the first one on, shape (..., blocks)."""
-    z = np.empty_like(added)
-    z[..., 0] = first
-    later = added[..., :-1]
-    if later.size:
-        z[..., 1:] = lfilter([1.0], [1.0, -decay], later, zi=(decay * z[..., :1]))[0]
-    return z
+def _starts(added: np.ndarray, decay: np.ndarray, first: np.ndarray) -> np.ndarray:
+    """Return ``z[i+1] = decay z[i] + added[i]`` from the first one on.
+
+    In the same way as the samples: a product within groups of blocks, then from group to group,
+    here by doubling, ``z[i] + d z[i-1] + d^2 (z[i-2] + d z[i-3]) ...``, all modes at once.
+
+    Parameters
+    ----------
+    added : ndarray, shape (m, ..., blocks), complex
+    decay : ndarray, shape (m,), complex
+    first : ndarray, shape (m, ...), complex
+
+    Returns
+    -------
+    ndarray, shape (m, ..., blocks), complex
+    """
+    blocks, size = added.shape[-1], _GROUP
+    x = np.zeros((*added.shape[:-1], -(-blocks // size) * size), dtype=complex)
+    x[..., 0] = first
+    x[..., 1:blocks] = added[..., :-1]
+    steps = np.repeat(decay[:, None], size, axis=1)
+    powers = np.cumprod(np.concatenate([np.ones((len(decay), 1)), steps], axis=1), axis=1)
+    z = x.reshape(len(decay), -1, size) @ _delayed(powers[:, :size])
+    z = z.reshape(*x.shape[:-1], -1, size)
+    carried, reach = z[..., -1].copy(), 1
+    factor = powers[:, size].reshape(-1, *[1] * (carried.ndim - 1))
+    while reach < carried.shape[-1]:
+        carried[..., reach:] += factor * carried[..., :-reach]
+        factor, reach = factor * factor, 2 * reach
+    onward = powers[:, 1:].reshape(len(decay), *[1] * (z.ndim - 2), size)
+    z[..., 1:, :] += carried[..., :-1, None] * onward
+    return z.reshape(x.shape)[..., :blocks]
 
 
 def moved_on(

@@ -283,11 +283,11 @@ class AnyTrain:
         Returns
         -------
         list of ndarray, one for each car, shape (wheels of the car, 2, samples)
-            N on the deck, lateral before vertical.
+            N on the deck, lateral before vertical. To be read only: cars share them.
         """
 
         def zeros(car: Car) -> np.ndarray:
-            return np.zeros((len(car.wheels), 2, passage.samples))
+            return np.broadcast_to(0.0, (len(car.wheels), 2, passage.samples))
 
         return self._on_rigid_deck(Vehicle.sampled, zeros, track, passage)
 
