@@ -303,9 +303,9 @@ class SampledResponse:
         Without those that act on nothing: a wheel may have no spring in a direction.
         """
         found: dict[bytes, list[int]] = {}
-        for number, column in enumerate(self.system.b.T + 0.0):
+        for i, column in enumerate(self.system.b.T + 0.0):
             if column.any():
-                found.setdefault(column.tobytes(), []).append(number)
+                found.setdefault(column.tobytes(), []).append(i)
         return [np.array(own) for own in found.values()] or [np.array([0])]
 
     @cached_property
