@@ -66,10 +66,10 @@ class PiecewiseCubic:
             return np.einsum("pk,kpnc->knc", factors, self.coefficients[i])
         # Places in a row within one piece are one product of matrices.
         own = self.coefficients.reshape(len(self.coefficients), 4, -1)
-        result = np.empty((len(x), own.shape[2]))
+        result = np.empty((own.shape[2], len(x)))
         for first, last in zip([0, *ends[:-1].tolist()], ends.tolist(), strict=True):
-            np.matmul(factors[:, first:last].T, own[i[first]], out=result[first:last])
-        return result.reshape(len(x), *self.coefficients.shape[2:])
+            np.matmul(own[i[first]].T, factors[:, first:last], out=result[:, first:last])
+        return result.T.reshape(len(x), *self.coefficients.shape[2:])
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,18 +129,21 @@ class Stations:
         """
         mode = self.pairs[0]
         ordered = np.zeros((len(mode), samples))
+        # One place for all products: memory asked for anew costs more than the product itself.
+        room = np.empty((len(mode), max((load.shape[1] for load in loads), default=0)))
         for station, load in enumerate(loads):
             values, slopes = self.tables[self.which[station]]
             start, count = self.starts[station], load.shape[1]
-            met = ordered[:, start : start + count]
+            met, part = ordered[:, start : start + count], room[:, :count]
             for c, pairs in enumerate(self.components):
                 if pairs.start == pairs.stop:
                     continue
                 if load[c].any():
-                    met[pairs] += values[pairs, :count] * load[c]
+                    met[pairs] += np.multiply(values[pairs, :count], load[c], out=part[pairs])
                 if len(load) == 5 and c < 2:
                     # A couple does work on the slope: M_z on v', and M_y on theta_y = -w'.
-                    met[pairs] += slopes[pairs, :count] * (load[4] if c == 0 else -load[3])
+                    couple = load[4] if c == 0 else -load[3]
+                    met[pairs] += np.multiply(slopes[pairs, :count], couple, out=part[pairs])
         if self._as_they_are and len(mode) == modes:
             return ordered
         total = np.zeros((modes, samples))

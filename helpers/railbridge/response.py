@@ -371,19 +371,28 @@ class SampledModes:
 
         The first sample of the force does not move anything.
         """
-        size, samples = self.gain.shape[1], force.shape[1]
-        rows = _in_blocks([force], size, 2)
-        added = rows[..., :size] @ self.gain
+        size, (modes, samples) = self.gain.shape[1], force.shape
+        blocks, whole = -(-samples // size), samples // size
         start = self.first * force[:, 0]
+        added = np.zeros((modes, blocks, 2))
+        in_blocks = force[:, : whole * size].reshape(modes, whole, size)
+        np.matmul(in_blocks, self.gain, out=added[:, :whole])
         swings, creeps = self.swings, ~self.swings
         more = [added[swings, :, 0] + 1j * added[swings, :, 1], *added[creeps].transpose(2, 0, 1)]
         first = [start[0, swings] + 1j * start[1, swings], *start[:, creeps]]
         decay = [self.decay[0, swings], *self.decay[:, creeps]]
         z = _starts(*(np.concatenate(each) for each in (more, decay, first)))
         z, slow, quick = np.split(z, np.cumsum([swings.sum(), creeps.sum()]))
-        rows[swings, :, size], rows[swings, :, size + 1] = z.real, z.imag
-        rows[creeps, :, size], rows[creeps, :, size + 1] = slow.real, quick.real
-        q, velocity = ((rows @ m).reshape(len(force), -1)[:, :samples] for m in self.within)
+        added[swings, :, 0], added[swings, :, 1] = z.real, z.imag
+        added[creeps, :, 0], added[creeps, :, 1] = slow.real, quick.real
+        # One mode after the other, in one place: memory asked for anew costs more than it is worth.
+        result, row = np.empty((2, modes, blocks * size)), np.zeros((blocks, size + 2))
+        for m in range(modes):
+            row[:whole, :size], row[:, size:] = in_blocks[m], added[m]
+            row[whole:, : samples - whole * size] = force[m, whole * size :]
+            for values, within in zip(result, self.within, strict=True):
+                np.matmul(row, within[m], out=values[m].reshape(blocks, size))
+        q, velocity = result[..., :samples]
         q[:, 0] = velocity[:, 0] = 0.0
         for m, system in self.others.items():
             q[m], velocity[m] = system(force[m][None])

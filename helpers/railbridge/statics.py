@@ -115,7 +115,8 @@ class MovingLoads:
                 load, count = self.loads[station], stations.counts[station]
                 part = total[:, stations.starts[station] :][:, :count]
                 for c in range(3):
-                    part += values[:, c, :count] * load[c]
+                    if load[c].any():
+                        part += values[:, c, :count] * load[c]
                 if couples:
                     part += slopes[:, 0, :count] * load[4] - slopes[:, 1, :count] * load[3]
         return total

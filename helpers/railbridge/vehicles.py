@@ -392,7 +392,15 @@ class Vehicle:
         time_step : float
             s.
         """
-        return WheelForces(self.system.sampled(time_step))
+        if time_step not in self._sampled:
+            self._sampled.clear()  # one is kept: a slider meets a new step in every run
+            self._sampled[time_step] = WheelForces(self.system.sampled(time_step))
+        return self._sampled[time_step]
+
+    @cached_property
+    def _sampled(self) -> dict[float, WheelForces]:
+        """What `sampled` gave last, by its time step."""
+        return {}
 
     @property
     def body(self) -> Body:
