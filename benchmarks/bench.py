@@ -148,7 +148,7 @@ def beside_opensees(unit):
     print("\nplanar, mid-span sag            / paper's case   OpenSeesPy / ours   sags differ")
     for name, (ours, theirs) in problems().items():
         took = best(ours)
-        line = f"  {name:28s} {took / unit:16.3f}"
+        line = f"  {name:34s} {took / unit:10.3f}"
         if ops is not None:
             other = best(theirs, ops, repeats=2)
             line += f" {other / took:19.0f} {abs(ours() / theirs(ops) - 1):13.1e}"
