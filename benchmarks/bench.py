@@ -1,8 +1,9 @@
 """Time the paper's case, how it grows with the number of cars, and a plain integration of the same
 equations beside it.
 
-Everything is printed as a ratio within this one run, since seconds belong to the machine. `python
-benchmarks/bench.py`.
+Four planar crossings stand beside OpenSeesPy (`planar`), where that can be loaded. Everything is
+printed as a ratio within this one run, since seconds belong to the machine, whose own product of
+matrices and pass through memory stand first. `python benchmarks/bench.py`.
 """
 
 import dataclasses
@@ -17,6 +18,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import railbridge as rb
+from planar import opensees, problems
 
 MEMORY = """
 import os, resource, sys
@@ -74,7 +76,7 @@ def coupled(case):
     textbook would write it."""
     car, deck, s = case.train.vehicle, case.deck, case.run().settings
     m, c, k = car.mass_matrix, car.damping_matrix, car.stiffness_matrix
-    rows = car._contact_rows.reshape(-1, len(car.labels))
+    rows = car.contact_stretch.reshape(-1, len(car.labels))
     kc, cc = car.contact_stiffness.ravel(), car.contact_damping.ravel()
     inverse, n, modes = np.linalg.inv(m), len(m), len(deck.frequencies_hz)
     omega, y = (
@@ -130,7 +132,33 @@ def coupled(case):
     )
 
 
+def machine():
+    """Print what the machine itself does: a product of matrices, and a pass through memory."""
+    a, b, long = np.ones((512, 512)), np.ones((512, 512)), np.ones(2**24)
+    product, memory = best(lambda: a @ b), best(lambda: np.add(long, 1.0, out=long))
+    print(
+        f"this machine, one thread: products of matrices {2e-9 * 512**3 / product:.0f} GFlop/s, "
+        f"memory {2e-9 * long.nbytes / memory:.1f} GB/s read and written\n"
+    )
+
+
+def beside_opensees(unit):
+    """Print the planar crossings beside those of OpenSeesPy with a step loop."""
+    ops = opensees()
+    print("\nplanar, mid-span sag            / paper's case   OpenSeesPy / ours   sags differ")
+    for name, (ours, theirs) in problems().items():
+        took = best(ours)
+        line = f"  {name:34s} {took / unit:10.3f}"
+        if ops is not None:
+            other = best(theirs, ops, repeats=2)
+            line += f" {other / took:19.0f} {abs(ours() / theirs(ops) - 1):13.1e}"
+        print(line, flush=True)
+    if ops is None:
+        print("  OpenSeesPy cannot be loaded here")
+
+
 def main():
+    machine()
     paper = rb.case("paper").replace({"run.iterations": 4})
     solve(paper)
     unit = best(solve, paper, repeats=15)
@@ -173,6 +201,7 @@ def main():
         f"the same by scipy.integrate.solve_ivp (RK45, 1e-4)       {plain / unit:.1f}   "
         f"{plain / converged:.0f} times the suite's"
     )
+    beside_opensees(unit)
     took = best(lambda: dataclasses.replace(rb.deck("viaduct36").recovery.beam).modes, repeats=15)
     print(
         f"\nbeam modes of the paper's deck, mesh built anew: {took / unit:.2f}   "
@@ -180,7 +209,7 @@ def main():
     )
     print(
         f"\npeak memory of the paper's case, with its results: {float(fresh(MEMORY)[0]):.0f} "
-        "MB (to stay below 400)"
+        "MB (to stay below 200)"
     )
     took, *loaded = fresh(IMPORT, 3)
     print(

@@ -6,7 +6,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import railbridge as rb
-from railbridge.coupling import iterate, prepare
+from railbridge.coupling import iterate, left, prepare
 from railbridge.settings import check
 from railbridge.vehicles import Body, Spring, Vehicle
 
@@ -155,6 +155,76 @@ def test_it_stops_below_the_tolerance_twice_in_a_row():
     assert run.converged
     assert run.changes[-1] < 1e-5 and run.changes[-2] < 1e-5 and run.changes[-3] >= 1e-5
     assert iterate(run.coupling).changes == run.changes
+
+
+def test_what_is_left_is_the_sum_of_what_would_follow():
+    falling = [0.3**k for k in range(5)]
+    assert left(falling) == pytest.approx(sum(0.3**k for k in range(5, 60)))
+    # The slower of the last two falls counts; one change alone, or one that grew, tells nothing.
+    assert left([1.0, 0.5, 0.05]) == pytest.approx(0.05) == left([1.0, 0.1, 0.05])
+    assert left([7.0, 1.0, 0.1, 0.01]) == pytest.approx(0.01 / 9)
+    for unknown in ([0.1], [0.1, 0.2], [0.1, 0.2, 0.01], [0.0, 0.1]):
+        assert left(unknown) == np.inf
+    assert left([0.0]) == left([0.5, 0.0]) == 0.0
+
+
+def test_changes_of_displacement_are_what_they_are_said_to_be():
+    """The root of the mass times the mean square of the displacement, along the deck by hand."""
+    run = suite(27.78, 1e-3, iterations=3, tolerance_of="displacement")
+    x = (np.arange(500) + 0.5) / 500 * L
+    shapes = run.deck.shapes(x)[:, :, 1]
+    states = [run.at(i).state.q for i in range(4)]
+    for change, new, old in zip(run.changes, states[1:], states[:-1], strict=True):
+        rms = [np.sqrt(MASS * L * np.mean((shapes @ q) ** 2, axis=0)) for q in (new - old, new)]
+        assert change == pytest.approx(rms[0].max() / rms[1].max(), rel=2e-3)
+    assert sorted(run.states) == [0, 1, 2, 3]
+    assert iterate(run.coupling).changes == run.changes
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
+@pytest.mark.parametrize("relaxation", [None, 0.6, "aitken"])
+def test_a_tolerance_of_displacement_is_kept_with_fewer_passes(tolerance, relaxation):
+    exact = suite(27.78, 1e-3, tolerance=1e-12).displacement(L / 2)["displacement_z"]
+    options = {"tolerance": tolerance, "relaxation": relaxation}
+    run = suite(27.78, 1e-3, tolerance_of="displacement", **options)
+    ours = run.displacement(L / 2)["displacement_z"]
+    assert run.converged
+    assert np.abs(ours - exact).max() < tolerance * np.abs(exact).max()
+    assert run.iterations < suite(27.78, 1e-3, relaxation=relaxation).iterations
+
+
+@pytest.mark.parametrize("loads, passes", [("condensed", 9), ("wheels", 5)])
+def test_the_paper_case_keeps_a_tolerance_of_displacement(loads, passes):
+    changes = {"run.iterations": None, "run.loads": loads, "run.tail": 0.0}
+    case = rb.case("paper").replace(changes)
+    exact = case.replace({"run.tolerance": 1e-12}).run().displacement(18.0)["displacement_z"]
+    run = case.replace({"run.tolerance": 1e-4, "run.tolerance_of": "displacement"}).run()
+    ours = run.displacement(18.0)["displacement_z"]
+    assert np.abs(ours - exact).max() < 1e-4 * np.abs(exact).max()
+    assert run.iterations <= passes < case.run().iterations / 2
+
+
+def test_passes_that_slow_down_on_the_way_do_not_end_too_early():
+    """Every pass carries the solution some cars down the train: on a light deck the changes fall
+    fast and then slowly, or rise again."""
+    train, track = rb.Train(rb.vehicle("xia2000_planar"), cars=4), rb.Track(rb.Harmonic(5e-3, 14.4))
+    for mass in (6e3, 4e3):
+        deck = rb.Beam("light", (36.0,), mass, 8.9e10).deck(4, 0.02)
+        common = {"speed": 20.0, "time_step": 2e-3, "max_iterations": 100}
+        exact = rb.cross(train, deck, track, **common, tolerance=1e-11)
+        exact = exact.displacement(18.0)["displacement_z"]
+        for tolerance in (1e-2, 1e-3, 1e-4):
+            run = rb.cross(
+                train, deck, track, **common, tolerance=tolerance, tolerance_of="displacement"
+            )
+            error = np.abs(run.displacement(18.0)["displacement_z"] - exact).max()
+            assert error < tolerance * np.abs(exact).max()
+
+
+def test_a_tolerance_of_displacement_that_is_not_met_is_told_in_its_words():
+    words = "moved the deck by .* of its largest motion; that and what is left must be below"
+    with pytest.raises(rb.NotConvergedError, match=words):
+        suite(27.78, 1e-3, tolerance_of="displacement", max_iterations=2)
 
 
 def test_every_wheel_feels_the_deck_at_its_own_place():

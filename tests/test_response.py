@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
+from scipy.signal import lfilter
 
 from railbridge.errors import InputError
 from railbridge.response import (
@@ -17,6 +18,7 @@ from railbridge.response import (
     moved_on,
     oscillator,
     ramp_coefficients,
+    sampled_modes,
     second_order_system,
 )
 
@@ -215,6 +217,69 @@ def test_halving_the_step_of_a_piecewise_linear_input_changes_nothing(ratio, ome
     scale = np.abs(once).max(axis=1, keepdims=True)
     assert np.all(np.abs(once - twice) <= 1e-8 * scale)
     assert np.all(np.isfinite(once))
+
+
+RATIOS = [0.0, 0.02, 0.9, 0.9998, 0.99995, 1.0, 1.00005, 1.0002, 1.5, 40.0]
+
+
+@pytest.mark.parametrize("turn", [1e-7, 1e-4, 0.02, 0.5, 3.0, 40.0])
+@pytest.mark.parametrize("samples", [2, 15, 16, 17, 400])
+def test_modes_under_a_ramp_and_how_short_the_steps_may_be(turn, samples):
+    """All ways a mode can move at once; omega h from a ten-millionth, where recursions lose digits,
+    to several turns a step."""
+    omega, h = 12.0, turn / 12.0
+    t = h * np.arange(samples)
+    modes = sampled_modes(np.full(len(RATIOS), omega), np.array(RATIOS), h)
+    assert sorted(modes.others) == [4, 5, 6], "within a ten-thousandth of critical"
+    motion = modes(np.tile(t, (len(RATIOS), 1)))
+    for m, ratio in enumerate(RATIOS):
+        # The closed form is a difference of large numbers at first; a double pole takes half.
+        early = turn * samples * (1 + 2 * ratio) < 5.0
+        series = [ramp_series(omega, ratio, t, power) for power in (3, 2)]
+        exact = series if early else closed_form(omega, ratio, t)
+        near = 1e-7 if 0.9 < ratio < 1.01 else 1e-11
+        if ratio > 0.99:  # two real roots close together for so short a step
+            near = max(near, near * 1e-4 / turn)
+        noise = 0.0 if early else 1e-14 * (1 + 2 * ratio) / omega**2 * np.array([1 / omega, 1.0])
+        for own, expected, least in zip(motion, exact, np.broadcast_to(noise, 2), strict=True):
+            assert np.abs(own[m] - expected).max() <= near * np.abs(expected).max() + least
+
+
+def ramp_series(omega, ratio, t, power):
+    """q (power 3) or q' (power 2) under a unit ramp from rest as a power series in t, for short
+    times."""
+    total, a, b = np.zeros_like(t), 1.0, 0.0
+    for n in range(power, power + 40):
+        # q = sum c_n t^n / n!, with c_3 = 1 and c_(n+2) = -2 zeta omega c_(n+1) - omega^2 c_n.
+        total = total + a * t**n / factorial(n)
+        a, b = -2 * ratio * omega * a - omega**2 * b, a
+    return total
+
+
+@pytest.mark.parametrize("turn", [1e-5, 1e-3, 0.02, 0.5, 3.0])
+def test_modes_that_swing_are_one_complex_filter(turn):
+    """The recursion ``z[k+1] = a z[k] + b0 f[k] + b1 f[k+1]``, sample by sample."""
+    rng, omega, n = np.random.default_rng(5), 20.0, 5000
+    f = rng.normal(size=(3, n)).cumsum(axis=1)
+    ratios = np.array([0.0, 0.03, 0.7])
+    q, velocity = sampled_modes(np.full(3, omega), ratios, turn / omega)(f)
+    poles = omega * (-ratios + 1j * np.sqrt(1 - ratios**2))
+    coefficients = ramp_coefficients(poles, turn / omega)
+    for s, a, b0, b1, own, rate, force in zip(poles, *coefficients, q, velocity, f, strict=True):
+        z = lfilter([b1, b0], [1.0, -a], force, zi=-b1 * force[:1])[0]
+        for found, expected in ((own, z.imag / s.imag), (rate, (s * z).imag / s.imag)):
+            assert np.abs(found - expected).max() < 1e-12 * np.abs(expected).max()
+
+
+def test_independent_runs_do_not_touch_each_other_and_a_future_does_not_touch_the_past():
+    system, rng = oscillator(30.0, 0.1).sampled(1e-2), np.random.default_rng(1)
+    u = rng.normal(size=(1, 3, 77))
+    y = system(u)
+    for cut in (1, 7, 8, 9, 76):
+        assert system(u[:, :, :cut]) == pytest.approx(y[:, :, :cut], rel=1e-13, abs=1e-15)
+        late = np.where(np.arange(77) < cut, 0.0, u)
+        assert np.all(system(late)[:, :, :cut] == 0.0)
+    assert system(u[:, 1]) == pytest.approx(y[:, 1], rel=1e-13, abs=1e-15)
 
 
 def test_time_step_must_be_positive():

@@ -17,6 +17,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -27,9 +29,19 @@ from .response import SampledModes
 from .settings import Settings
 from .tracks import Track
 from .trains import AnyTrain, Car, Wheel
-from .vehicles import Vehicle, WheelResponse
+from .vehicles import Vehicle, WheelForces, WheelResponse
 
-__all__ = ["CoupledCar", "Coupling", "DeckState", "FixedPoint", "ForcesAdded", "iterate", "prepare"]
+__all__ = [
+    "CoupledCar",
+    "Coupling",
+    "DeckState",
+    "FixedPoint",
+    "ForcesAdded",
+    "iterate",
+    "left",
+    "prepare",
+    "settled",
+]
 
 ForcesAdded = list[np.ndarray]
 """What the deck's motion adds to each car's wheel forces while it is on the deck, N.
@@ -68,7 +80,7 @@ class CoupledCar:
         Its load stations, where the deck is loaded.
     load_matrix : ndarray, shape (stations, 3 or 5, wheels, 2)
         From wheel forces to station loads about the deck axis.
-    respond : callable or None
+    respond : WheelForces or None
         See `Vehicle.sampled`; None where there is no suspension.
     """
 
@@ -79,12 +91,18 @@ class CoupledCar:
     axles: np.ndarray
     loads: np.ndarray
     load_matrix: np.ndarray = field(repr=False)
-    respond: WheelResponse | None = field(repr=False)
+    respond: WheelForces | None = field(repr=False)
 
     @property
     def on_deck(self) -> int:
         """Samples in the window."""
         return self.window.stop - self.window.start
+
+    @cached_property
+    def loading(self) -> list[slice]:
+        """Which wheels load each station: those that stand on it."""
+        acts = np.any(self.load_matrix != 0.0, axis=(1, 3))
+        return [slice(*(np.flatnonzero(own)[[0, -1]] + [0, 1]).tolist()) for own in acts]
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,8 +142,8 @@ class Coupling:
     modes: SampledModes | None
 
     def nothing_added(self) -> ForcesAdded:
-        """Return the first guess: the deck adds nothing."""
-        return [np.zeros((len(c.rigid), 2, c.on_deck)) for c in self.cars]
+        """Return the first guess: the deck adds nothing. To be read only."""
+        return [np.broadcast_to(0.0, (len(c.rigid), 2, c.on_deck)) for c in self.cars]
 
     # ---- the deck under the train
 
@@ -137,15 +155,21 @@ class Coupling:
         """
         result = []
         for c, own in zip(self.cars, added, strict=True):
-            forces = c.rigid[..., c.window] + c.static[..., None] + own
-            for station, matrix in zip(c.loads, c.load_matrix, strict=True):
-                start = int(self.loads.starts[station]) - c.window.start
-                stop = start + int(self.loads.counts[station])
-                met = forces[..., start:stop]
-                if margin:
-                    around = np.arange(start - margin, stop + margin)
-                    met = forces[..., np.clip(around, 0, c.on_deck - 1)]
-                result.append(np.tensordot(matrix, met, 2))
+            for station, matrix, wheels in zip(c.loads, c.load_matrix, c.loading, strict=True):
+                matrix = matrix[:, wheels].reshape(len(matrix), -1)
+                count = int(self.loads.counts[station]) + 2 * margin
+                if c.respond is None:
+                    # Bare axle loads are what they are at rest.
+                    load = (matrix @ c.static[wheels].ravel())[:, None]
+                    result.append(np.broadcast_to(load, (len(matrix), count)))
+                    continue
+                start = int(self.loads.starts[station]) - c.window.start - margin
+                within = slice(max(start, 0), min(start + count, c.on_deck))
+                forces = c.rigid[wheels, :, c.window][..., within] + own[wheels, :, within]
+                forces += c.static[wheels, :, None]
+                load = matrix @ forces.reshape(matrix.shape[1], -1)
+                missing = within.start - start, start + count - within.stop
+                result.append(np.pad(load, ((0, 0), missing), "edge") if any(missing) else load)
         return result
 
     def deck_state(self, loads: list[np.ndarray]) -> DeckState:
@@ -173,32 +197,41 @@ class Coupling:
             stations = np.array([c.axles[i] for c in cars])
             for alike in self.axles.alike(stations):
                 moved, rate = self.axles.motion(deck, stations[alike])
-                starts = self.axles.starts[stations[alike]] - first[alike]
-                counts = self.axles.counts[stations[alike]]
+                starts = (self.axles.starts[stations[alike]] - first[alike]).tolist()
+                counts = self.axles.counts[stations[alike]].tolist()
+                places = list(zip(alike.tolist(), starts, counts, strict=True))
                 for wheel in axle.wheels:
                     own = u[wheel.number - 1]
                     met = self._wheel_input(cars[0].car.vehicle, wheel, moved, rate)
                     for direction, values in enumerate(met):
-                        for n, c in enumerate(alike):
-                            window = slice(starts[n], starts[n] + counts[n])
-                            own[direction, c, window] = values[n, : counts[n]]
+                        if values is None:
+                            continue
+                        for (c, start, count), part in zip(places, values, strict=True):
+                            own[direction, c, start : start + count] = part[:count]
         return u
 
     def _wheel_input(
         self, vehicle: Vehicle, wheel: Wheel, moved: np.ndarray, rate: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    ) -> tuple[np.ndarray | None, np.ndarray]:
         """Return k w + c w' of one wheel, lateral and vertical, where its axle meets this motion.
 
-        Each of shape (stations, n), as y, z and roll of the motion are.
+        Each of shape (stations, n), as y, z and roll of the motion are; None where the wheel feels
+        nothing sideways.
         """
         contact = wheel.number - 1
         k, c = vehicle.contact_stiffness[contact], vehicle.contact_damping[contact]
         vertical = k[1] * moved[1] + c[1] * rate[1]
         if self.settings.feedback != "all":
-            return np.zeros_like(vertical), vertical
-        roll = [k[d] * moved[2] + c[d] * rate[2] for d in (0, 1)]
-        vertical += (self.settings.track_offset + wheel.y) * roll[1]
-        lateral = k[0] * moved[0] + c[0] * rate[0] - self.deck.track_height * roll[0]
+            return None, vertical
+        has = self.deck.has
+        if has["roll"]:
+            roll = k[1] * moved[2] + c[1] * rate[2]
+            vertical += (self.settings.track_offset + wheel.y) * roll
+        if not (k[0] or c[0]) or not (has["y"] or has["roll"]):
+            return None, vertical
+        lateral = k[0] * moved[0] + c[0] * rate[0]
+        if has["roll"] and self.deck.track_height:
+            lateral -= self.deck.track_height * (k[0] * moved[2] + c[0] * rate[2])
         return lateral, vertical
 
     def train_pass(self, state: DeckState) -> ForcesAdded:
@@ -211,8 +244,13 @@ class Coupling:
                 added[c.car.number - 1] = forces[:, :, i, : c.on_deck]
         return added
 
-    def wheel_forces(self, added: ForcesAdded, felt: DeckState | None) -> np.ndarray:
-        """Return all wheel forces on the deck, N, shape (wheels, 2, n), static part included.
+    def wheel_forces(
+        self,
+        added: ForcesAdded,
+        felt: DeckState | None,
+        cars: Sequence[CoupledCar] | None = None,
+    ) -> np.ndarray:
+        """Return wheel forces on the deck, N, shape (wheels, 2, n), static part included.
 
         Parameters
         ----------
@@ -220,22 +258,25 @@ class Coupling:
         felt : DeckState or None
             The deck's motion that `added` answers to: behind the deck a car's motion decays freely
             on the track. None: a rigid deck.
+        cars : sequence of CoupledCar, optional
+            Whose; all if not given.
         """
-        return np.concatenate([self.car_wheel_forces(c, added, felt) for c in self.cars])
-
-    def car_wheel_forces(
-        self, c: CoupledCar, added: ForcesAdded, felt: DeckState | None
-    ) -> np.ndarray:
-        """Return what `wheel_forces` gives for one car, shape (its wheels, 2, n)."""
-        total = c.rigid + c.static[..., None]
-        total[..., c.window] += added[c.car.number - 1]
-        behind = len(self.time) - c.window.stop
-        if felt is not None and behind > 0 and c.respond is not None:
-            # The car's whole time on the deck is run once more, with the level track behind added.
-            u = self.support_input(felt, [c])
-            longer = np.concatenate([u, np.zeros((*u.shape[:3], behind))], axis=3)
-            total[..., c.window.stop :] += c.respond(longer)[:, :, 0, u.shape[3] :]
-        return total
+        cars = self.cars if cars is None else cars
+        result = np.empty((sum(len(c.rigid) for c in cars), 2, len(self.time)))
+        places = np.split(result, np.cumsum([len(c.rigid) for c in cars])[:-1])
+        alike: dict[int, list[tuple[CoupledCar, np.ndarray]]] = {}
+        for c, total in zip(cars, places, strict=True):
+            np.add(c.rigid, c.static[..., None], out=total)
+            total[..., c.window] += added[c.car.number - 1]
+            if c.respond is not None and felt is not None and c.window.stop < len(self.time):
+                alike.setdefault(id(c.car.vehicle), []).append((c, total))
+        for own in alike.values():
+            met = self.support_input(felt, [c for c, _ in own])
+            for i, (c, total) in enumerate(own):
+                u = met[:, :, i : i + 1, : c.on_deck]
+                behind = total[..., c.window.stop :]
+                behind += c.respond.after(u, behind.shape[2])[:, :, 0]
+        return result
 
     def body_accelerations(self, state: DeckState) -> list[np.ndarray]:
         """Return what the deck's motion adds to every car body's accelerations, m/s2.
@@ -283,6 +324,18 @@ class Coupling:
             worst = float(np.maximum(worst, np.max(moved / np.maximum(size, floor))))
         return worst
 
+    def moved(self, new: DeckState, old: DeckState) -> float:
+        """Return by what share of its largest motion the deck's motion differs from another one.
+
+        A motion is measured by the root of the sum of q^2 over the modes, at its largest over
+        time. Since shapes are mass-normalised, that is the root of the mass times the mean square
+        of the displacement, the whole deck and all directions counted. Not finite where the motion
+        is not.
+        """
+        size, change = (np.einsum("mt,mt->t", q, q).max() for q in (new.q, new.q - old.q))
+        # A deck that does not move has not changed.
+        return float(np.sqrt(change / np.maximum(size, np.finfo(float).tiny)))
+
 
 def prepare(train: AnyTrain, deck: Guideway, track: Track, settings: Settings) -> Coupling:
     """Compute all that the passes share: rigid-deck forces, places on the deck, sampled systems."""
@@ -290,7 +343,7 @@ def prepare(train: AnyTrain, deck: Guideway, track: Track, settings: Settings) -
     passage = s.passage
     rigid = train.rigid_forces(track, passage)
     respond = {id(v): v.sampled(s.time_step) for v, _ in train.kinds()}
-    cars, load_delays, axles = [], [], 0
+    cars, load_delays, count = [], [], 0
     for car, own in zip(train.formation, rigid, strict=True):
         condensation = car.condensation(s.loads)
         matrix = condensation.matrix.copy()
@@ -301,24 +354,28 @@ def prepare(train: AnyTrain, deck: Guideway, track: Track, settings: Settings) -
                 own,
                 car.static_forces,
                 _window(car, deck.length, passage.advance, s.samples),
-                axles + np.arange(len(car.axles)),
+                count + np.arange(len(car.axles)),
                 len(load_delays) + np.arange(len(condensation.offsets)),
                 matrix,
                 respond.get(id(car.vehicle)),
             )
         )
-        axles += len(car.axles)
+        count += len(car.axles)
         load_delays += (car.centre - condensation.offsets).tolist()
     sampling = s.speed, s.time_step, s.samples
     axle_delays = np.array([axle.delay for axle in train.placed_axles])
+    axles = deck.stations(axle_delays, *sampling)
+    # Wheel loads act where the deck is felt.
+    same = np.array_equal(axle_delays, load_delays)
+    loads = axles if same else deck.stations(np.array(load_delays), *sampling)
     return Coupling(
         train=train,
         deck=deck,
         settings=s,
         time=frozen(np.arange(s.samples) * s.time_step),
         cars=tuple(cars),
-        axles=deck.stations(axle_delays, *sampling),
-        loads=deck.stations(np.array(load_delays), *sampling),
+        axles=axles,
+        loads=loads,
         load_delays=np.array(load_delays),
         modes=deck.sampled(s.time_step) if isinstance(deck, Deck) else None,
     )
@@ -344,10 +401,11 @@ class FixedPoint:
     passes : tuple of list of ndarray
         What the deck's motion adds to the wheel forces, see `ForcesAdded`.
     changes : tuple of float
-        See `Coupling.change`.
+        See `Coupling.change`; or `Coupling.moved`, where the tolerance is one of displacement.
     converged : bool
     states : dict of DeckState
-        The deck's state under the first pass and under the last but one, which the last answers to.
+        The deck's state under the first pass and under the last but one, which the last answers to;
+        under the last as well, where it was needed.
     """
 
     passes: tuple[ForcesAdded, ...]
@@ -357,23 +415,23 @@ class FixedPoint:
 
 
 def iterate(coupling: Coupling, progress: Callable[[str], None] | None = None) -> FixedPoint:
-    """Repeat the steps until the change is below the tolerance twice in a row.
+    """Repeat the steps until what the tolerance speaks of has settled, see `settled`.
 
     Or for a given number of passes.
     """
     s = coupling.settings
     passes, changes = [coupling.nothing_added()], []
     share = s.relaxation if isinstance(s.relaxation, float) else 1.0
-    previous, below = None, 0
+    previous = None
     states: dict[int, DeckState] = {}
     for i in range(s.iterations or s.max_iterations):
         old = passes[-1]
-        state = coupling.deck_state(coupling.station_loads(old))
-        states = {n: kept for n, kept in states.items() if n == 0} | {i: state}
-        new = coupling.train_pass(state)
-        changes.append(coupling.change(new, old))
-        if progress is not None:
-            progress(f"iteration {len(changes)}: change {changes[-1]:.1e}")
+        if i not in states:
+            states[i] = coupling.deck_state(coupling.station_loads(old))
+        states = {n: states[n] for n in (0, i)}
+        new = coupling.train_pass(states[i])
+        if s.tolerance_of == "forces":
+            changes.append(coupling.change(new, old))
         if s.relaxation is not None:
             step = [n - o for n, o in zip(new, old, strict=True)]
             if s.relaxation == "aitken" and previous is not None:
@@ -381,10 +439,42 @@ def iterate(coupling: Coupling, progress: Callable[[str], None] | None = None) -
             new = [o + share * d for o, d in zip(old, step, strict=True)]
             previous = step
         passes.append(new)
-        below = below + 1 if changes[-1] < s.tolerance else 0
-        if not np.isfinite(changes[-1]) or (s.iterations is None and below == 2):
+        if s.tolerance_of == "displacement":
+            states[i + 1] = coupling.deck_state(coupling.station_loads(new))
+            changes.append(coupling.moved(states[i + 1], states[i]))
+        if progress is not None:
+            progress(f"iteration {len(changes)}: change {changes[-1]:.1e}")
+        if not np.isfinite(changes[-1]) or (s.iterations is None and settled(changes, s)):
             break
-    return FixedPoint(tuple(passes), tuple(changes), below >= 2, states)
+    return FixedPoint(tuple(passes), tuple(changes), settled(changes, s), states)
+
+
+def settled(changes: Sequence[float], settings: Settings) -> bool:
+    """Return whether an iteration may stop.
+
+    Forces: two changes in a row below the tolerance. Displacement: the last change and what is
+    `left` are below it. What is left alone would let go too early, since every pass carries the
+    solution some cars further down the train and the changes fall ever more slowly on the way.
+    """
+    if settings.tolerance_of == "displacement":
+        return max(changes[-1], left(changes)) < settings.tolerance
+    return len(changes) > 1 and max(changes[-2:]) < settings.tolerance
+
+
+def left(changes: Sequence[float]) -> float:
+    """Return what further passes would still change, from the changes so far.
+
+    If each is at most rho times the one before, all that follow the last one, d, come to
+    ``d (rho + rho^2 + ...) = d rho / (1 - rho)``. For rho the larger of the last two ratios is
+    taken, since changes may fall fast and then rise again; of changes that do not fall nothing is
+    known, nor of a single one that is not zero.
+    """
+    last = changes[-1]
+    if last == 0.0:
+        return 0.0
+    ratios = [new / old if old else np.inf for old, new in pairwise(changes[-3:])]
+    ratio = max(ratios, default=np.inf)
+    return last * ratio / (1.0 - ratio) if ratio < 1.0 else np.inf
 
 
 def _aitken(share: float, step: list[np.ndarray], previous: list[np.ndarray]) -> float:

@@ -42,10 +42,14 @@ class NotConvergedError(RuntimeError):
             remedies.insert(0, direct + with_all)
         else:
             remedies.append(f"{path}loads = 'wheels' with {direct}")
+        found = f"the last change was {run.changes[-1]:.2g} and"
+        needed = f"must be below {path}tolerance = {s.tolerance:g} twice in a row"
+        if s.tolerance_of == "displacement":
+            found = f"the last pass moved the deck by {run.changes[-1]:.2g} of its largest motion;"
+            needed = f"that and what is left must be below {path}tolerance = {s.tolerance:g}"
         super().__init__(
-            f"{path}max_iterations = {run.iterations}: not converged, the last change was "
-            f"{run.changes[-1]:.2g} and must be below {path}tolerance = {s.tolerance:g} twice in a "
-            f"row. Try {', '.join(remedies[:-1])}, or {remedies[-1]}."
+            f"{path}max_iterations = {run.iterations}: not converged, {found} {needed}. "
+            f"Try {', '.join(remedies[:-1])}, or {remedies[-1]}."
         )
         self.run = run
 

@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -397,7 +398,16 @@ class Deck(Guideway):
 
     def sampled(self, time_step: float) -> SampledModes:
         """What gives modal coordinates and velocities from modal forces, at a time step (s)."""
-        return sampled_modes(2 * np.pi * self.frequencies_hz, self.damping_ratios, time_step)
+        if time_step not in self._sampled:
+            self._sampled.clear()  # one is kept: a slider meets a new step in every run
+            omega = 2 * np.pi * self.frequencies_hz
+            self._sampled[time_step] = sampled_modes(omega, self.damping_ratios, time_step)
+        return self._sampled[time_step]
+
+    @cached_property
+    def _sampled(self) -> dict[float, SampledModes]:
+        """What `sampled` gave last, by its time step."""
+        return {}
 
     def acceleration(
         self, q: np.ndarray, velocity: np.ndarray, modal_force: np.ndarray
@@ -423,8 +433,10 @@ class Deck(Guideway):
         static : ndarray, shape (n,)
             The influence line under the present loads.
         """
-        elastic_and_viscous = q + self.internal_damping * velocity
-        return line.modal @ elastic_and_viscous + self._residual(line, modal_force, static)
+        kept = line.modal @ q
+        if self.internal_damping:
+            kept += self.internal_damping * (line.modal @ velocity)
+        return kept + self._residual(line, modal_force, static)
 
     def displaced(
         self,

@@ -36,7 +36,7 @@ def solve_directly(
 
     Wheel loads only. A step loop, about 0.1 ms a step: the iteration stays the fast path.
     """
-    added = coupling.nothing_added()
+    added = [np.array(own) for own in coupling.nothing_added()]
     cars = [
         _CarStepper(coupling, c, own)
         for c, own in zip(coupling.cars, added, strict=True)

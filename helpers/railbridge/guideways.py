@@ -26,6 +26,8 @@ COMPONENTS = ("y", "z", "roll")
 
 _LARGEST = 2**28
 """Bytes of the windows that are described at once."""
+_LONG = 8
+"""Places in a row within one piece from which on they are taken together."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +61,15 @@ class PiecewiseCubic:
         for p in range(derivative, 4):
             factors[p] = perm(p, derivative) * local ** (p - derivative) / h**derivative
         factors[:, (x < self.edges[0] - 1e-9) | (x > self.edges[-1] + 1e-9)] = 0.0
-        return np.einsum("pk,kpnc->knc", factors, self.coefficients[i])
+        ends = np.append(np.flatnonzero(np.diff(i)) + 1, len(x))
+        if len(x) < _LONG * len(ends):
+            return np.einsum("pk,kpnc->knc", factors, self.coefficients[i])
+        # Places in a row within one piece are one product of matrices.
+        own = self.coefficients.reshape(len(self.coefficients), 4, -1)
+        result = np.empty((own.shape[2], len(x)))
+        for first, last in zip([0, *ends[:-1].tolist()], ends.tolist(), strict=True):
+            np.matmul(own[i[first]].T, factors[:, first:last], out=result[:, first:last])
+        return result.T.reshape(len(x), *self.coefficients.shape[2:])
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,38 +127,52 @@ class Stations:
         -------
         ndarray, shape (modes, samples)
         """
-        ordered = np.zeros((len(self.pairs[0]), samples))
-        for members in self.alike(np.arange(len(self.starts))):
-            values, slopes = self.tables[self.which[members[0]]]
-            load = np.zeros((max(len(loads[s]) for s in members), len(members), values.shape[1]))
-            for place, station in enumerate(members):
-                load[: len(loads[station]), place, : loads[station].shape[1]] = loads[station]
-            part = np.empty((len(ordered), *load.shape[1:]))
+        mode = self.pairs[0]
+        ordered = np.zeros((len(mode), samples))
+        # One place for all products: memory asked for anew costs more than the product itself.
+        room = np.empty((len(mode), max((load.shape[1] for load in loads), default=0)))
+        for station, load in enumerate(loads):
+            values, slopes = self.tables[self.which[station]]
+            start, count = self.starts[station], load.shape[1]
+            met, part = ordered[:, start : start + count], room[:, :count]
             for c, pairs in enumerate(self.components):
-                np.multiply(values[pairs, None], load[c], out=part[pairs])
+                if pairs.start == pairs.stop:
+                    continue
+                if load[c].any():
+                    met[pairs] += np.multiply(values[pairs, :count], load[c], out=part[pairs])
                 if len(load) == 5 and c < 2:
                     # A couple does work on the slope: M_z on v', and M_y on theta_y = -w'.
-                    part[pairs] += slopes[pairs, None] * (load[4] if c == 0 else -load[3])
-            for place, station in enumerate(members):
-                start, count = self.starts[station], self.counts[station]
-                ordered[:, start : start + count] += part[:, place, :count]
+                    couple = load[4] if c == 0 else -load[3]
+                    met[pairs] += np.multiply(slopes[pairs, :count], couple, out=part[pairs])
+        if self._as_they_are and len(mode) == modes:
+            return ordered
         total = np.zeros((modes, samples))
         for pairs in self.components:
-            total[self.pairs[0][pairs]] += ordered[pairs]
+            total[mode[pairs]] += ordered[pairs]
         return total
 
-    def ordered(self, q: np.ndarray, velocity: np.ndarray) -> np.ndarray:
-        """Return modal coordinates and velocities of each pair's mode, shape (2, pairs, n)."""
-        return np.stack([q[self.pairs[0]], velocity[self.pairs[0]]])
+    @cached_property
+    def _as_they_are(self) -> bool:
+        """Whether the pairs are the modes in their own order."""
+        return np.array_equal(self.pairs[0], np.arange(len(self.pairs[0])))
 
-    def motion(self, state: np.ndarray, stations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def ordered(self, *values: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Return modal coordinates or velocities of each pair's mode, each shape (pairs, n)."""
+        mode = self.pairs[0]
+        if self._as_they_are:
+            return tuple(v[: len(mode)] for v in values)
+        return tuple(v[mode] for v in values)
+
+    def motion(
+        self, state: tuple[np.ndarray, np.ndarray], stations: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Return what stations that share a table meet.
 
         y, z and roll of the deck, and their total time derivatives.
 
         Parameters
         ----------
-        state : ndarray, shape (2, pairs, n)
+        state : (coordinates, velocities), each shape (pairs, n)
             See `ordered`.
         stations : ndarray of int, shape (s,)
             Numbers from 0; see `alike`.
@@ -159,16 +183,19 @@ class Stations:
         """
         values, slopes = self.tables[self.which[stations[0]]]
         count = int(self.counts[stations].max())
-        values, climb = values[:, :count], self.speed * slopes[:, :count]
-        moved, rate = np.empty((2, 3, len(stations), count))
-        together = max(_LARGEST // (state[..., :1].nbytes * max(count, 1)), 1)
+        values, slopes = values[:, :count], slopes[:, :count]
+        moved, rate = np.zeros((2, 3, len(stations), count))
+        together = max(_LARGEST // (16 * len(values) * max(count, 1)), 1)
         for first in range(0, len(stations), together):
             some = slice(first, first + together)
-            q, velocity = _windows(state, self.starts[stations[some]], count)
+            q, velocity = (_windows(v, self.starts[stations[some]], count) for v in state)
             for c, p in enumerate(self.components):
+                if p.start == p.stop:
+                    continue
                 np.einsum("pt,pst->st", values[p], q[p], out=moved[c, some])
-                np.einsum("pt,pst->st", values[p], velocity[p], out=rate[c, some])
-                rate[c, some] += np.einsum("pt,pst->st", climb[p], q[p])
+                np.einsum("pt,pst->st", slopes[p], q[p], out=rate[c, some])
+                rate[c, some] *= self.speed
+                rate[c, some] += np.einsum("pt,pst->st", values[p], velocity[p])
         return moved, rate
 
 
@@ -228,7 +255,7 @@ class Guideway:
         """How many coordinates describe its motion."""
         return self.shapes.coefficients.shape[2]
 
-    @property
+    @cached_property
     def has(self) -> dict[str, bool]:
         """Whether the deck moves in y, z and roll."""
         return dict(

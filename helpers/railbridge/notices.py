@@ -99,9 +99,12 @@ def _not_settled(run: Crossing) -> list[Remark]:
     if run.converged is not False or run.settings.iterations is None:
         return []
     last = run.changes[-1]
-    text = f"= {run.iterations}: the last pass still changed the wheel forces by {last:.2g}"
+    what, whole = "changed the wheel forces", "their dynamic part"
+    if run.settings.tolerance_of == "displacement":
+        what, whole = "moved the deck", "its largest motion"
+    text = f"= {run.iterations}: the last pass still {what} by {last:.2g}"
     if not unsettled(run):
-        return [Remark("iterations", text + " of their dynamic part.")]
+        return [Remark("iterations", f"{text} of {whole}.")]
     least = int(np.nanargmin(run.changes))
     if least < len(run.changes) - 1:
         text += f", pass {least + 1} by {run.changes[least]:.2g}: they diverge"
@@ -110,6 +113,11 @@ def _not_settled(run: Crossing) -> list[Remark]:
 
 def _pulling(run: Crossing) -> list[Remark]:
     """Name the wheel that pulls on the rail hardest."""
+    if not run.train.kinds():
+        return []  # bare axle loads stay as they are
+    static = np.array([wheel.static_load for wheel in run.train.wheels])
+    if static.min() > 0.0 and np.all(run.wheel_forces[:, 1].max(axis=1) <= 0.0):
+        return []  # the common case, without further histories
     unloading = np.nan_to_num(run.wheel_unloading)
     if not unloading.max() > 1.0:
         return []

@@ -112,7 +112,8 @@ class Crossing:
         computed from it when asked for.
     changes : tuple of float
         For each iteration, the largest over wheels and directions of
-        rms(F_i - F_(i-1)) / rms(F_i - static).
+        rms(F_i - F_(i-1)) / rms(F_i - static); or, where the tolerance is one of displacement, by
+        what share of its largest motion the deck moved, see `Coupling.moved`.
     converged : bool or None
         None for interaction ``rigid`` and ``direct``.
     iteration : int
@@ -196,21 +197,18 @@ class Crossing:
         Lateral before vertical; order of wheels as in ``train.wheels``. After a car has left the
         deck its motion decays freely on the track.
         """
-        return frozen(np.concatenate([self._wheels_of(c) for c in self.coupling.cars]))
-
-    @cached_property
-    def _known(self) -> dict[int, np.ndarray]:
-        """Wheel forces by car, as far as they were asked for."""
-        return {}
+        return frozen(self.coupling.wheel_forces(*self._added_and_felt))
 
     def _wheels_of(self, c: CoupledCar) -> np.ndarray:
         """Wheel forces of one car, shape (its wheels, 2, n)."""
-        number = c.car.number
-        if number not in self._known:
-            felt = self._felt if self.iteration > 0 else None
-            forces = self.coupling.car_wheel_forces(c, self.passes[self.iteration], felt)
-            self._known[number] = frozen(forces)
-        return self._known[number]
+        if "wheel_forces" not in vars(self):
+            return frozen(self.coupling.wheel_forces(*self._added_and_felt, [c]))
+        before = sum(len(other.rigid) for other in self.coupling.cars[: c.car.number - 1])
+        return self.wheel_forces[before : before + len(c.rigid)]
+
+    @property
+    def _added_and_felt(self) -> tuple[ForcesAdded, DeckState | None]:
+        return self.passes[self.iteration], self._felt if self.iteration > 0 else None
 
     @cached_property
     def _felt(self) -> DeckState:

@@ -83,13 +83,13 @@ class MovingLoads:
     def _around(self) -> np.ndarray:
         """Loads from a sample before each station's first to one behind its last.
 
-        Shape (stations, 5, longest); a station that ends earlier keeps its last load.
+        Shape (stations, 3 or 5, longest); a station that ends earlier keeps its last load.
         """
         found = self.coupling.station_loads(self.added, margin=1)
-        result = np.zeros((len(found), 5, max(load.shape[1] for load in found)))
+        result = np.empty((len(found), len(found[0]), max(load.shape[1] for load in found)))
         for row, load in zip(result, found, strict=True):
-            row[: len(load), : load.shape[1]] = load
-            row[: len(load), load.shape[1] :] = load[:, -1:]
+            row[:, : load.shape[1]] = load
+            row[:, load.shape[1] :] = load[:, -1:]
         return result
 
     def of_lines(self, lines: Sequence[Line]) -> np.ndarray:
@@ -115,7 +115,8 @@ class MovingLoads:
                 load, count = self.loads[station], stations.counts[station]
                 part = total[:, stations.starts[station] :][:, :count]
                 for c in range(3):
-                    part += values[:, c, :count] * load[c]
+                    if load[c].any():
+                        part += values[:, c, :count] * load[c]
                 if couples:
                     part += slopes[:, 0, :count] * load[4] - slopes[:, 1, :count] * load[3]
         return total
@@ -210,7 +211,9 @@ class MovingLoads:
         before, after = (
             around[station, :, np.clip(i - first, 0, around.shape[2] - 1)] for i in (k, k + 1)
         )
-        return before + s[:, None] * (after - before)
+        load = np.zeros((len(station), 5))
+        load[:, : around.shape[1]] = before + s[:, None] * (after - before)
+        return load
 
     def _modal_force(
         self, load: np.ndarray, x: np.ndarray, when: np.ndarray, instants: int

@@ -218,6 +218,11 @@ class Track:
         return result
 
     @property
+    def level(self) -> bool:
+        """Whether every rail is perfect."""
+        return all(isinstance(rail, Level) for rail in self._rails.values())
+
+    @property
     def shortest(self) -> float:
         """Shortest length in the track, m."""
         return min(
@@ -334,22 +339,26 @@ class FadeIn:
         """Shortest length of the irregularity itself, m."""
         return self.inner.shortest
 
-    def _factor(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _fade(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return where r is not yet untouched, and its factor there and the factor's slope."""
         if self.lead_in == 0.0:
-            return np.where(x >= -1e-9, 1.0, 0.0), np.zeros_like(x)
+            early = np.flatnonzero(x < -1e-9)
+            return early, np.zeros(len(early)), np.zeros(len(early))
         ramp = self.lead_in / 2
-        factor, rate = (x > -ramp).astype(float), np.zeros_like(x)
-        fading = (x > -self.lead_in) & (x <= -ramp)
-        angle = np.pi * (x[fading] + self.lead_in) / ramp
-        factor[fading] = 0.5 - 0.5 * np.cos(angle)
-        rate[fading] = 0.5 * np.pi / ramp * np.sin(angle)
-        return factor, rate
+        early = np.flatnonzero(x <= -ramp)
+        angle = np.pi * np.maximum(x[early] + self.lead_in, 0.0) / ramp
+        return early, 0.5 - 0.5 * np.cos(angle), 0.5 * np.pi / ramp * np.sin(angle)
 
     def value(self, x: np.ndarray) -> np.ndarray:
         """Return r, m."""
-        return self._factor(x)[0] * self.inner.value(x)
+        result = np.array(self.inner.value(x), dtype=float)
+        early, factor, _ = self._fade(x)
+        result[early] *= factor
+        return result
 
     def slope(self, x: np.ndarray) -> np.ndarray:
         """Return dr/dx, the fade's own slope included."""
-        factor, rate = self._factor(x)
-        return factor * self.inner.slope(x) + rate * self.inner.value(x)
+        result = np.array(self.inner.slope(x), dtype=float)
+        early, factor, rate = self._fade(x)
+        result[early] = factor * result[early] + rate * self.inner.value(x[early])
+        return result

@@ -283,11 +283,11 @@ class AnyTrain:
         Returns
         -------
         list of ndarray, one for each car, shape (wheels of the car, 2, samples)
-            N on the deck, lateral before vertical.
+            N on the deck, lateral before vertical. To be read only: cars share them.
         """
 
         def zeros(car: Car) -> np.ndarray:
-            return np.zeros((len(car.wheels), 2, passage.samples))
+            return np.broadcast_to(0.0, (len(car.wheels), 2, passage.samples))
 
         return self._on_rigid_deck(Vehicle.sampled, zeros, track, passage)
 
@@ -332,7 +332,7 @@ class AnyTrain:
         known: dict[tuple, np.ndarray] = {}
         result = []
         for car in self.formation:
-            if car.vehicle is None:
+            if car.vehicle is None or (track.level and not car.notches):
                 result.append(zeros(car))
                 continue
             front = car.axles[0].delay
@@ -372,6 +372,10 @@ def _rail_input(car: Car, track: Track, passage: Passage, fraction: float) -> np
         behind = front - (wheel.x if passage.excitation == "wheels" else vehicle.front)
         x = local - behind
         for j, direction in enumerate(("lateral", "vertical")):
+            stiffness, damping = vehicle.contact_stiffness[i, j], vehicle.contact_damping[i, j]
+            if not (stiffness or damping):
+                u[i, j] = 0.0
+                continue
             rail = rails[direction, wheel.side]
             key = id(rail.inner), behind
             if key not in met:
@@ -384,7 +388,6 @@ def _rail_input(car: Car, track: Track, passage: Passage, fraction: float) -> np
                         # taken.
                         own = local - (front - wheel.x)
                         r, rate = r + notch.value(own), rate + speed * notch.slope(own)
-            stiffness, damping = vehicle.contact_stiffness[i, j], vehicle.contact_damping[i, j]
             u[i, j] = stiffness * r + damping * rate
     return u
 

@@ -25,10 +25,13 @@ from scipy.linalg import eigh
 
 from . import errors
 from .errors import InputError, Range, brief, check_fields, frozen, within
-from .response import LinearSystem, second_order_system
+from .response import LinearSystem, SampledResponse, second_order_system
 from .units import G
 
-__all__ = ["FREEDOMS", "Axle", "Body", "Contact", "Modes", "Spring", "Vehicle", "WheelResponse"]
+__all__ = [
+    "FREEDOMS", "Axle", "Body", "Contact", "Modes", "Spring", "Vehicle", "WheelForces",
+    "WheelResponse",
+]  # fmt: skip
 
 FREEDOMS = ("y", "z", "roll", "pitch", "yaw")
 _INERTIA_AXIS = {"roll": 0, "pitch": 1, "yaw": 2}
@@ -379,7 +382,7 @@ class Vehicle:
         matrices = self.mass_matrix, self.damping_matrix, self.stiffness_matrix
         return second_order_system(*matrices, rows.T, output)
 
-    def sampled(self, time_step: float) -> WheelResponse:
+    def sampled(self, time_step: float) -> WheelForces:
         """Return what gives the forces on the deck, without their static part, from ``k r + c r'``.
 
         Both in N.
@@ -389,15 +392,15 @@ class Vehicle:
         time_step : float
             s.
         """
-        respond = self.system.sampled(time_step)
+        if time_step not in self._sampled:
+            self._sampled.clear()  # one is kept: a slider meets a new step in every run
+            self._sampled[time_step] = WheelForces(self.system.sampled(time_step))
+        return self._sampled[time_step]
 
-        def forces(u: np.ndarray) -> np.ndarray:
-            inputs = u.reshape(-1, *u.shape[2:])
-            result = respond(inputs)
-            result -= inputs
-            return result.reshape(u.shape)
-
-        return forces
+    @cached_property
+    def _sampled(self) -> dict[float, WheelForces]:
+        """What `sampled` gave last, by its time step."""
+        return {}
 
     @property
     def body(self) -> Body:
@@ -552,6 +555,36 @@ class Vehicle:
         """Name each shape by the freedom with most of the kinetic energy."""
         energy = np.diag(self.mass_matrix)[:, None] * np.abs(shapes) ** 2
         return tuple(self.labels[i] for i in np.argmax(energy, axis=0))
+
+
+@dataclass(frozen=True)
+class WheelForces:
+    """What gives wheel forces on the deck from ``k r + c r'``; made by `Vehicle.sampled`.
+
+    Attributes
+    ----------
+    respond : SampledResponse
+        That of `Vehicle.system`.
+    """
+
+    __repr__ = brief
+
+    respond: SampledResponse
+
+    def __call__(self, u: np.ndarray) -> np.ndarray:
+        """Return forces without their static part, N, shape (wheels, 2, ..., n) as that of u."""
+        inputs = u.reshape(-1, *u.shape[2:])
+        result = self.respond(inputs)
+        result -= inputs
+        return result.reshape(u.shape)
+
+    def after(self, u: np.ndarray, samples: int) -> np.ndarray:
+        """Return how the forces decay on level track behind an input's last sample.
+
+        Shape (wheels, 2, ..., samples).
+        """
+        inputs = u.reshape(-1, *u.shape[2:])
+        return self.respond.after(inputs, samples).reshape(*u.shape[:-1], samples)
 
 
 # ---- refusals

@@ -409,7 +409,7 @@ FULL = {
     "track": {"vertical": WAVE, "lateral": {"left": {"kind": "table", "x": [0, 9], "r": [0, 1e-3]},
     "right": WAVE}},
     "run": {"speed": 20.0, "time_step": 2.5e-4, "loads": "wheels", "interaction": "iterate",
-    "tolerance": 1e-6, "lead_in": 10.0,
+    "tolerance": 1e-6, "tolerance_of": "displacement", "lead_in": 10.0,
             "tail": 1.0, "max_iterations": 9, "iterations": 2, "relaxation": 0.5,
             "excitation": "wheels", "feedback": "all"},
     "output": {"points": [18.0]},
