@@ -12,10 +12,10 @@ from .outputs import OUTPUTS, outputs_at
 from .refinement import Between
 from .resonance import repeated_distance, residual_acceleration, resonance_speeds
 from .store import MemoryStore, Store
-from .study import CHUNK, Point, carry_out, remaining
+from .study import CHUNK, CHUNK_OF_LOADS, Point, carry_out, remaining
 
 __all__ = [
-    "Asked", "Between", "CHUNK", "Dimension", "Job", "MemoryStore", "NUMBERS", "OUTPUTS", "Point",
+    "Asked", "Between", "CHUNK", "CHUNK_OF_LOADS", "Dimension", "Job", "MemoryStore", "NUMBERS", "OUTPUTS", "Point",
     "QUANTITIES", "Row", "Store", "WIDTH", "advance_of", "asked_of", "carry_out", "checked_speeds",
     "dataset", "eligible", "fingerprint", "named_trains", "outputs_at", "print_of_deck",
     "remaining", "repeated_distance", "residual_acceleration", "resonance_speeds", "respond",

@@ -13,14 +13,15 @@ from ..decks import Deck
 from ..errors import InputError
 from ..settings import check
 from ..tracks import Track
-from ..trains import AnyTrain
+from ..trains import AnyTrain, AxleTrain
 from .datasets import Dimension, dataset
 from .engine import Asked, Job, Row, asked_of, respond
 from .fingerprints import fingerprint, print_of_deck
 from .outputs import outputs_at
 from .refinement import SETTLED, Between, refined, starting_speeds
 from .resonance import repeated_distance, residual_acceleration
-from .study import CHUNK, MemoryStore, Point, Store, carry_out
+from .store import MemoryStore, Store
+from .study import CHUNK, CHUNK_OF_LOADS, Point, carry_out
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -48,7 +49,9 @@ def named_trains(trains: Any) -> dict[str, AnyTrain]:
     if isinstance(trains, AnyTrain):
         trains = [trains]
     if not isinstance(trains, Mapping):
-        trains = errors.instance("trains", trains, (list, tuple))
+        if not isinstance(trains, (list, tuple)):
+            allowed = "must be a Train, several, or {name: train}"
+            raise InputError("trains", trains, allowed)
         names = [getattr(train, "name", "") or f"train {i}" for i, train in enumerate(trains, 1)]
         for name in names:
             if names.count(name) > 1:
@@ -88,7 +91,7 @@ def speed_envelope(
     track: Track | None = None,
     numbers: Sequence[str] = (),
     store: Store | None = None,
-    chunk: int = CHUNK,
+    chunk: int | None = None,
     workers: int = 1,
     client: Any = None,
     progress: Callable[[int, int], None] | None = None,
@@ -142,6 +145,9 @@ def speed_envelope(
     common = fingerprint(print_of_deck(deck, asked), track)
     store = MemoryStore() if store is None else store
     task = OnDeck(deck, asked)
+    if chunk is None:
+        constant = all(isinstance(train, AxleTrain) for train in by_name.values())
+        chunk = CHUNK_OF_LOADS if constant else CHUNK
     how = {"chunk": chunk, "workers": workers, "client": client, "progress": progress}
 
     def planned(train: AnyTrain, along: np.ndarray) -> list[Point]:

@@ -396,16 +396,19 @@ class _Batch:
         wd, s = pole.imag[:, None], pole[:, None]
         # z with Im z = wd q and Im(s z) = wd q': Re z = q' - Re(s) q.
         sigma = pole.real[:, None]
-        self.E = (
-            a.real - a.imag * sigma / wd, a.imag / wd,
-            ((s * a).imag * -sigma + (s * a).real * wd) / wd, (s * a).imag / wd,
-        )  # fmt: skip
-        self.c0 = b0.imag / wd, (s * b0).imag / wd
-        self.c1 = b1.imag / wd, (s * b1).imag / wd
+        # What q and q' give to both one step later, and what the modal force gives now and before.
+        self.from_q = (
+            np.stack([a.real * wd - a.imag * sigma, (s * a).real * wd - (s * a).imag * sigma]) / wd
+        )
+        self.from_v = np.stack([a.imag, (s * a).imag]) / wd
+        self.c0 = np.stack([b0.imag, (s * b0).imag]) / wd
+        self.c1 = np.stack([b1.imag, (s * b1).imag]) / wd
+        self.work = np.empty_like(self.c0)
         self.omega2, self.viscous = omega[:, None] ** 2, (2 * ratio * omega)[:, None]
         shape = len(pole), len(self.jobs)
         self.q = [np.zeros((2, *shape)) for _ in range(self.passes + 1)]
         self.ahead = [np.zeros((2, *shape)) for _ in range(self.passes + 1)]
+        self.nothing = np.zeros(shape)
 
     def shapes_at(self, k: int) -> tuple[np.ndarray, np.ndarray]:
         """Return shapes and slopes met by the axles at sample k, shape (3 axles, modes)."""
@@ -420,14 +423,13 @@ class _Batch:
 
     def deck_step(self, number: int, p: np.ndarray, k: int) -> None:
         """Take the deck of one pass on to sample k with the modal force p."""
-        state, ahead = self.q[number], self.ahead[number]
+        state, ahead, work = self.q[number], self.ahead[number], self.work
         if k:  # the first sample moves nothing
-            np.multiply(self.c1[0], p, out=state[0])
-            np.multiply(self.c1[1], p, out=state[1])
+            np.multiply(self.c1, p, out=state)
             state += ahead
-        q, v = state
-        ahead[0] = self.E[0] * q + self.E[1] * v + self.c0[0] * p
-        ahead[1] = self.E[2] * q + self.E[3] * v + self.c0[1] * p
+        np.multiply(self.from_q, state[0], out=ahead)
+        ahead += np.multiply(self.from_v, state[1], out=work)
+        ahead += np.multiply(self.c0, p, out=work)
 
     # ---- the loop
 
@@ -438,18 +440,22 @@ class _Batch:
         base: list[np.ndarray] = []
         self._run_up()
         for k in range(int(self.samples.max())):
+            if k >= self.leaves and not meter.wheels:
+                self.deck_step(self.passes, self.nothing, k)
+                meter.read(k, None, None, self.nothing, None)
+                continue
             place = k % _BLOCK
-            if place == 0:
-                base = [np.exp(1j * own * (k * self.advance)) for own in self.waves]
+            if place == 0 or not base:
+                base = [np.exp(1j * own * (k - place) * self.advance) for own in self.waves]
             turned = [b * w[place] for b, w in zip(base, waves, strict=True)]
             u = self.rail_input(k, turned)
             rigid = np.concatenate([car.rigid_forces(u[car.wheels]) for car in self.cars])
             rigid += self.static
             if k < self.leaves:
                 forces, p, loads = self._passes(k, rigid)
+                meter.read(k, rigid, forces, p, loads)
             else:
-                forces, p, loads = self._behind(rigid)
-            meter.read(k, rigid, forces, p, loads)
+                meter.read(k, rigid, self._behind(rigid, k), self.nothing, None)
         return meter.values()
 
     def _passes(self, k: int, rigid: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -481,20 +487,16 @@ class _Batch:
             self.deck_step(number, p, k)
         return forces, p, loads
 
-    def _behind(self, rigid: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _behind(self, rigid: np.ndarray, k: int) -> np.ndarray:
         """The train has left: the deck swings freely, and the cars on the track behind it."""
-        loads = np.zeros((len(self.to_axles), len(self.jobs)))
-        forces = rigid
-        if self.passes:
-            still = np.zeros((2, *loads.shape))
-            added = [
-                car.added(self.passes, still[:, car.axles].reshape(-1, len(self.jobs)), True)[1]
-                for car in self.cars
-            ]
-            forces = rigid + np.concatenate(added)
-        p = np.zeros_like(self.q[0][0])
-        self.deck_step(self.passes, p, 1)
-        return forces, p, loads
+        self.deck_step(self.passes, self.nothing, k)
+        if not self.passes:
+            return rigid
+        added = []
+        for car in self.cars:
+            still = np.zeros((car.to_wheels.shape[1], len(self.jobs)))
+            added.append(car.added(self.passes, still, True)[1])
+        return rigid + np.concatenate(added)
 
 
 class _Meter:
@@ -502,6 +504,7 @@ class _Meter:
 
     def __init__(self, batch: _Batch, outputs: Sequence[Output], numbers: Sequence[str]) -> None:
         self.batch, self.numbers = batch, tuple(numbers)
+        self.wheels = not {"wheel_unloading", "wheel_force_z"}.isdisjoint(numbers)
         lanes, deck = len(batch.jobs), batch.deck
         self.lines = [output.line for output in outputs]
         self.modal = np.array([output.modal for output in outputs])
@@ -547,9 +550,14 @@ class _Meter:
                     self.influence[on, n, 3 * i : 3 * i + 3] = values
 
     def read(
-        self, k: int, rigid: np.ndarray, forces: np.ndarray, p: np.ndarray, loads: np.ndarray
+        self,
+        k: int,
+        rigid: np.ndarray | None,
+        forces: np.ndarray | None,
+        p: np.ndarray,
+        loads: np.ndarray | None,
     ) -> None:
-        """Look at the last pass at sample k."""
+        """Look at the last pass at sample k; what is None is not asked for, or has left."""
         batch = self.batch
         q, v = batch.q[batch.passes]
         going = k < batch.samples
@@ -563,6 +571,8 @@ class _Meter:
             np.copyto(self.high, values, where=higher)
             self.low_k[lower] = k
             self.high_k[higher] = k
+        if forces is None:
+            return
         vertical = forces[1::2]
         lowest, share = vertical.min(axis=0), np.fmin.reduce(vertical * self.share, axis=0)
         if k >= self.all_go:
@@ -574,14 +584,14 @@ class _Meter:
             self.history[1, k] = forces[1 : self.own : 2].sum(axis=0)
 
     def _values(
-        self, k: int, q: np.ndarray, v: np.ndarray, p: np.ndarray, loads: np.ndarray
+        self, k: int, q: np.ndarray, v: np.ndarray, p: np.ndarray, loads: np.ndarray | None
     ) -> np.ndarray:
         batch = self.batch
         values = self.modal @ q
         if self.viscous.any():
             values += self.viscous * (self.modal @ v)
         rest = -(self.rest @ p)
-        if k < batch.leaves:
+        if loads is not None:
             rest += self.influence[k] @ loads
         if self.lags.any():
             own = rest[self.lags]

@@ -75,6 +75,8 @@ def outputs_at(
         if quantity in quantities[:i]:
             raise InputError("quantities", quantity, "is named twice")
     places = errors.places("points", points, (0.0, deck.length)).tolist()
+    if not places:
+        raise InputError("points", [], "must hold at least one place, m")
     return tuple(_output(deck, quantity, x) for x in places for quantity in quantities)
 
 

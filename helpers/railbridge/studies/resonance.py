@@ -8,8 +8,10 @@ any of the axles has left: every axle leaves the deck a free vibration, and thos
     A = |K / (1 - K^2)| sqrt(1 + exp(-2 pi zeta / K) + 2 exp(-pi zeta / K) cos(pi / K)),
     G = max over k of |sum over i <= k of P_i exp(2 pi (i - zeta) (x_k - x_i) / lambda)|.
 
-A belongs to the deck alone, G, the signature, to the train alone. It is an upper envelope, some
-tenths of a per cent to a few per cent above the exact peak of that mode.
+A belongs to the deck alone, G, the signature, to the train alone. It is an upper envelope, at
+resonance some tenths of a per cent to a few per cent above the exact peak of that mode. Wrong when
+the largest acceleration comes while axles are still on the deck: then it may lie below, at
+resonance by half a per cent.
 """
 
 from __future__ import annotations
@@ -20,6 +22,9 @@ from ..decks import Deck
 from ..trains import AnyTrain, Train
 
 __all__ = ["first_vertical_mode", "repeated_distance", "residual_acceleration", "resonance_speeds"]
+
+_BLIND = 0.01
+"""Share of the speed 2 L f around it in which the formula means nothing."""
 
 
 def repeated_distance(train: AnyTrain) -> float | None:
@@ -60,7 +65,8 @@ def resonance_speeds(deck: Deck, train: AnyTrain, low: float, high: float) -> np
 def residual_acceleration(deck: Deck, train: AnyTrain, speeds: np.ndarray) -> np.ndarray | None:
     """Return the residual influence line's bound of the acceleration at mid-span, m/s2.
 
-    None where it does not apply: several spans, or a deck whose mass is not known.
+    None where it does not apply: several spans, or a deck whose mass is not known. NaN beside the
+    speed 2 L f, where the formula divides by nothing.
 
     Parameters
     ----------
@@ -77,9 +83,8 @@ def residual_acceleration(deck: Deck, train: AnyTrain, speeds: np.ndarray) -> np
     f, zeta = deck.frequencies_hz[mode], deck.damping_ratios[mode]
     places = np.array([axle.delay for axle in train.placed_axles])
     loads = np.array([axle.static_load for axle in train.placed_axles])
-    # K = 1 divides nothing by nothing; just beside it the value is the limit.
     K = speeds / (2 * deck.length * f)
-    K = np.where(np.abs(K - 1.0) < 1e-7, 1.0 + 1e-7, K)
+    K = np.where(np.abs(K - 1.0) < _BLIND, np.nan, K)
     left = np.exp(-np.pi * zeta / K)
     alone = np.abs(K / (1 - K**2)) * np.sqrt(
         np.maximum(1 + left**2 + 2 * left * np.cos(np.pi / K), 0.0)

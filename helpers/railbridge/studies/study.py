@@ -10,10 +10,12 @@ from .chunks import completed, split
 from .engine import Row
 from .store import MemoryStore, Store
 
-__all__ = ["CHUNK", "Point", "carry_out", "remaining"]
+__all__ = ["CHUNK", "CHUNK_OF_LOADS", "Point", "carry_out", "remaining"]
 
 CHUNK = 64
-"""Points of a chunk, if nothing else is asked for."""
+"""Points of a chunk, if nothing else is asked for: of cars, each some hundredths of a second."""
+CHUNK_OF_LOADS = 1024
+"""The same of constant loads, each half a thousandth."""
 
 
 @dataclass(frozen=True, eq=False)
