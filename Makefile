@@ -58,8 +58,9 @@ lint: env  ## check style, formatting and the layers of the package
 format: env  ## put the code into the one style that lint asks for
 	$(BIN)/python tools/lint.py --fix $(ARGS)
 
-bench: env  ## time the paper's case and how the time grows with the number of cars
+bench: env  ## time the paper's case, how it grows with the number of cars, and many crossings
 	$(BIN)/python benchmarks/bench.py $(ARGS)
+	$(BIN)/python benchmarks/many.py $(ARGS)
 
 latency: env  ## time sliders from key press to new picture in a real Chromium
 	$(BIN)/python benchmarks/latency.py $(ARGS)

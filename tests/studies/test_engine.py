@@ -58,7 +58,8 @@ def test_side_by_side_gives_what_one_by_one_does(case):
         for side in (False, True)
     )
     assert not np.array_equal(one, other), "they are sampled at other places"
-    assert other[:, :2] == pytest.approx(one[:, :2], rel=2e-4)
+    assert other[:, 0] == pytest.approx(one[:, 0], rel=1e-4)
+    assert other[:, 1] == pytest.approx(one[:, 1], rel=3e-3), "accelerations: steps that differ"
     assert other[:, -4:] == pytest.approx(one[:, -4:], rel=5e-3)
 
 

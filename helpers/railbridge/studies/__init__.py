@@ -15,9 +15,9 @@ from .store import MemoryStore, Store
 from .study import CHUNK, CHUNK_OF_LOADS, Point, carry_out, remaining
 
 __all__ = [
-    "Asked", "Between", "CHUNK", "CHUNK_OF_LOADS", "Dimension", "Job", "MemoryStore", "NUMBERS", "OUTPUTS", "Point",
-    "QUANTITIES", "Row", "Store", "WIDTH", "advance_of", "asked_of", "carry_out", "checked_speeds",
-    "dataset", "eligible", "fingerprint", "named_trains", "outputs_at", "print_of_deck",
-    "remaining", "repeated_distance", "residual_acceleration", "resonance_speeds", "respond",
-    "signature", "speed_envelope", "table",
+    "Asked", "Between", "CHUNK", "CHUNK_OF_LOADS", "Dimension", "Job", "MemoryStore", "NUMBERS",
+    "OUTPUTS", "Point", "QUANTITIES", "Row", "Store", "WIDTH", "advance_of", "asked_of",
+    "carry_out", "checked_speeds", "dataset", "eligible", "fingerprint", "named_trains",
+    "outputs_at", "print_of_deck", "remaining", "repeated_distance", "residual_acceleration",
+    "resonance_speeds", "respond", "signature", "speed_envelope", "table",
 ]  # fmt: skip
