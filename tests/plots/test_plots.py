@@ -889,3 +889,17 @@ def test_names_from_files_are_drawn_as_they_are(name, run):
 def test_public_functions_take_axes():
     for name in FIGURES:
         assert {"ax", "axes"} & set(inspect.signature(getattr(plots, name)).parameters), name
+
+
+def test_the_change_is_named_after_what_the_tolerance_is_of():
+    case = rb.case("paper").replace({"train.cars": 1, "run.loads": "wheels"})
+    forces = case.compute()
+    motion = case.replace({"run.tolerance_of": "displacement", "run.tolerance": 1e-4}).compute()
+    labels = [
+        rb.plots.convergence(runs).get_ylabel()
+        for runs in (forces, motion, {"forces": forces, "motion": motion})
+    ]
+    assert labels == [
+        "change of the wheel forces (-)", "change of the deck's motion (-)", "change (-)",
+    ]  # fmt: skip
+    plt.close("all")

@@ -161,7 +161,10 @@ def convergence(run_or_dict: Crossing | Mapping[str, Crossing], ax: Axes | None 
     if settings.iterations is None:
         line = {"label": f"tolerance {settings.tolerance:g}", "color": "k", "ls": ":", "lw": 1.0}
         curve(ax, "tolerance", [0.6, last + 0.4], [settings.tolerance] * 2, **line)
-    return _label_iterations(ax, "change of the wheel forces (-)", last)
+    kinds = {run.settings.tolerance_of for _, run, _ in runs}
+    of = {"forces": " of the wheel forces", "displacement": " of the deck's motion"}
+    what = of[kinds.pop()] if len(kinds) == 1 else ""
+    return _label_iterations(ax, f"change{what} (-)", last)
 
 
 def deviations(
