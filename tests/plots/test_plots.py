@@ -896,7 +896,7 @@ def test_the_change_is_named_after_what_the_tolerance_is_of():
     forces = case.compute()
     motion = case.replace({"run.tolerance_of": "displacement", "run.tolerance": 1e-4}).compute()
     labels = [
-        rb.plots.convergence(runs).get_ylabel()
+        rb.plots.convergence(runs).get_ylabel().replace("\n", " ")
         for runs in (forces, motion, {"forces": forces, "motion": motion})
     ]
     assert labels == [
