@@ -60,7 +60,12 @@ def test_side_by_side_gives_what_one_by_one_does(case):
     assert not np.array_equal(one, other), "they are sampled at other places"
     assert other[:, 0] == pytest.approx(one[:, 0], rel=1e-4)
     assert other[:, 1] == pytest.approx(one[:, 1], rel=3e-3), "accelerations: steps that differ"
-    assert other[:, -4:] == pytest.approx(one[:, -4:], rel=5e-3)
+    unloading, force, deviation, passes = other[:, -4:].T
+    assert unloading == pytest.approx(one[:, -4], rel=1e-3)
+    assert force == pytest.approx(one[:, -3], rel=1e-4)
+    # Eq. 3 hangs on where the record ends, here within one sample: hundredths of a per cent.
+    assert deviation == pytest.approx(one[:, -2], abs=0.05)
+    assert passes.tolist() == one[:, -1].tolist()
 
 
 def test_a_crossing_that_does_not_converge_is_a_row_with_its_message(case):

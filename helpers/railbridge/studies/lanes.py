@@ -14,15 +14,11 @@ A car in complex modes goes from sample to sample by ``z <- a z + b0 w + b1 w``,
 mode of the deck, with the imaginary parts of its z and s z, by
 
     (q, q') <- E (q, q') + c0 p + c1 p.
-
-Waves below the wheels are turned on from block to block: exp(i k x) of the next sample is that of
-this one times exp(i k V h), taken anew every 64 samples.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -34,7 +30,9 @@ from ..spectra import amplitude_spectrum, deviation_percent
 from ..statics import static_extremes
 from ..tracks import Harmonic, Level, Track
 from ..trains import AnyTrain, Train
+from .lanecars import LaneCar, parts_of
 from .outputs import Output
+from .railwaves import RailWaves
 
 __all__ = ["KNOWN", "WIDTH", "advance_of", "eligible", "run_lanes"]
 
@@ -42,7 +40,6 @@ WIDTH = 512
 """Lanes that are run together at most."""
 _FILLED = 64
 """Their number is filled up to a multiple of this: the last bit of a product may depend on it."""
-_BLOCK = 64
 _NEARLY_CRITICAL = 0.9999
 KNOWN = ("wheel_unloading", "wheel_force_z", "deviation_from_rigid", "iterations")
 """Numbers of a crossing that lanes can tell."""
@@ -91,7 +88,9 @@ def eligible(deck: Deck, job: Job, outputs: Sequence[Output], more: bool) -> boo
     rails = [job.track.rail(d, side) for d in ("lateral", "vertical") for side in ("left", "right")]
     if not all(isinstance(rail, (Harmonic, Level)) for rail in rails):
         return False
-    cars = all(vehicle.system.modal is not None for vehicle, _ in job.train.kinds())
+    systems = [vehicle.system.modal for vehicle, _ in job.train.kinds()]
+    # Without dampers a wave may meet a mode exactly, which has no steady state.
+    cars = all(modal is not None and np.all(modal[0].real < 0.0) for modal in systems)
     return cars and bool(np.all(deck.damping_ratios < _NEARLY_CRITICAL))
 
 
@@ -118,94 +117,6 @@ def run_lanes(
     return _Batch(deck, filled).run(outputs, numbers)[: len(jobs)]
 
 
-@dataclass(eq=False)
-class _Car:
-    """One car of all lanes: its modes, and where they stand for the rigid deck and each pass.
-
-    Attributes
-    ----------
-    poles : ndarray, shape (modes,)
-    a, b0, b1 : ndarray, shape (modes, lanes)
-        See `response.ramp_coefficients`.
-    left : (real, imaginary), each shape (modes, wheel directions)
-        What drives the modes, from k r + c r'.
-    right : (real, imaginary), each shape (wheel directions, modes)
-        What the springs carry.
-    felt : (real, imaginary), each shape (modes, 6 axles)
-        What drives the modes, from the deck's motion below the axles and its rate.
-    shown : (real, imaginary), each shape (3 axles, modes)
-        What the springs carry as loads of the axles about the deck's axis.
-    direct : ndarray, shape (3 axles, 6 axles)
-        What the deck's motion takes off these loads.
-    to_wheels : ndarray, shape (wheel directions, 6 axles)
-        k w + c w' of the wheels.
-    wheels, axles : slice
-        Rows of its wheels' directions, and of its axles' y, z and roll.
-    states : list of ndarray, shape (modes, lanes)
-    """
-
-    poles: np.ndarray
-    a: np.ndarray
-    b0: np.ndarray
-    b1: np.ndarray
-    left: tuple[np.ndarray, np.ndarray]
-    right: tuple[np.ndarray, np.ndarray]
-    felt: tuple[np.ndarray, np.ndarray]
-    shown: tuple[np.ndarray, np.ndarray]
-    direct: np.ndarray
-    to_wheels: np.ndarray
-    wheels: slice
-    axles: slice
-    states: list[np.ndarray]
-
-    def __post_init__(self) -> None:
-        self._drive, self._work = np.empty((2, *self.a.shape), dtype=complex)
-
-    def _driven(self, number: int, by: tuple[np.ndarray, np.ndarray], u: np.ndarray) -> np.ndarray:
-        """Add what a sample's input does there; return real and imaginary parts in turn."""
-        self._drive.real, self._drive.imag = by[0] @ u, by[1] @ u
-        state = self.states[number]
-        state += np.multiply(self.b1, self._drive, out=self._work)
-        return state.view(float)
-
-    def _go_on(self, number: int) -> None:
-        state = self.states[number]
-        state *= self.a
-        state += np.multiply(self.b0, self._drive, out=self._work)
-
-    def rigid_forces(self, u: np.ndarray) -> np.ndarray:
-        """Go on to a sample with k r + c r' below the wheels; return the wheel forces there."""
-        result = _real_of(self.right, self._driven(0, self.left, u)) - u
-        self._go_on(0)
-        return result
-
-    def start(self, standing: np.ndarray, u: np.ndarray) -> None:
-        """Let the modes stand somewhere at the first sample, with k r + c r' below the wheels."""
-        self.states[0][:] = standing - self.b1 * (self.left[0] @ u + 1j * (self.left[1] @ u))
-
-    def added(
-        self, number: int, motion: np.ndarray, wheels: bool
-    ) -> tuple[np.ndarray, np.ndarray | None]:
-        """Go on to a sample with a motion of the deck below the axles.
-
-        Return what that adds to the axles' loads, and to the wheel forces.
-        """
-        parts = self._driven(number, self.felt, motion)
-        loads = _real_of(self.shown, parts) - self.direct @ motion
-        forces = _real_of(self.right, parts) - self.to_wheels @ motion if wheels else None
-        self._go_on(number)
-        return loads, forces
-
-
-def _real_of(matrix: tuple[np.ndarray, np.ndarray], parts: np.ndarray) -> np.ndarray:
-    """Return the real part of a product: of two real products every other number."""
-    return (matrix[0] @ parts)[:, ::2] - (matrix[1] @ parts)[:, 1::2]
-
-
-def _parts(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    return np.ascontiguousarray(values.real), np.ascontiguousarray(values.imag)
-
-
 class _Batch:
     """Lanes that go together."""
 
@@ -222,120 +133,11 @@ class _Batch:
         tails = np.array([job.settings.tail for job in jobs])
         reach = deck.length + self.train.length
         self.samples = np.ceil(reach / self.advance + tails / self.h).astype(int) + 1
-        self._set_rails()
+        lead_in = np.array([job.settings.lead_in for job in jobs])
+        tracks = [job.track for job in jobs]
+        self.rails = RailWaves(self.train, tracks, self.speed, lead_in, self.h, self.advance)
         self._set_cars()
         self._set_deck()
-
-    # ---- what is under the wheels
-
-    def _set_rails(self) -> None:
-        """Amplitude and phase of k r + c r' and of c r at every wheel, and when it fades in."""
-        wheels = self.train.wheels
-        vehicles = {car.number: car.vehicle for car in self.train.formation}
-        shape = len(wheels) * 2, len(self.jobs)
-        self.input, self.damped = np.zeros((2, *shape), dtype=complex)
-        lead_in = np.array([job.settings.lead_in for job in self.jobs])
-        ways: dict[tuple[int, str], tuple[np.ndarray, np.ndarray]] = {}
-        for j, direction in enumerate(("lateral", "vertical")):
-            for side in ("left", "right"):
-                rails = [job.track.rail(direction, side) for job in self.jobs]
-                waves = [r if isinstance(r, Harmonic) else None for r in rails]
-                k = np.array([2 * np.pi / r.wavelength if r else 0.0 for r in waves])
-                size = [r.amplitude * np.exp(1j * r.phase) if r else 0.0 for r in waves]
-                ways[j, side] = k, np.array(size)
-        rows: list[tuple[int, str]] = []
-        for wheel in wheels:
-            vehicle, contact = vehicles[wheel.car], wheel.number - 1
-            for j in (0, 1):
-                k, size = ways[j, wheel.side]
-                stiffness = vehicle.contact_stiffness[contact, j]
-                damping = vehicle.contact_damping[contact, j]
-                row = len(rows)
-                turned = size * np.exp(-1j * k * wheel.delay)
-                self.input[row] = (stiffness + 1j * damping * self.speed * k) * turned
-                self.damped[row] = damping * turned
-                rows.append((j, wheel.side))
-        # Rails of one wavelength share the turning phasor.
-        by_wave: dict[bytes, list[int]] = {}
-        for n, row in enumerate(rows):
-            by_wave.setdefault(ways[row][0].tobytes(), []).append(n)
-        self.groups = [np.array(own) for own in by_wave.values()]
-        self.waves = [ways[rows[own[0]]][0] for own in self.groups]
-        # Wheels of one axle are at one place.
-        self.delays, self.place_of = np.unique(
-            np.repeat([wheel.delay for wheel in wheels], 2), return_inverse=True
-        )
-        self.lead_in = lead_in
-        # From here on all lanes are past their fade-in.
-        self.settled = int(np.ceil((self.delays.max() - lead_in.min() / 2) / self.advance)) + 1
-        self.stands = lead_in == 0.0
-
-    def rail_input(self, k: int, turned: list[np.ndarray]) -> np.ndarray:
-        """Return k r + c r' at every wheel, both directions, at sample k."""
-        u = np.empty((len(self.place_of), len(self.jobs)))
-        for group, phasor in zip(self.groups, turned, strict=True):
-            own = self.input[group]
-            u[group] = own.real * phasor.imag + own.imag * phasor.real
-        x = k * self.advance - self.delays
-        if k < self.settled:
-            factor, rate = (values[self.place_of] for values in self._fade(x))
-            u *= factor
-            for group, phasor in zip(self.groups, turned, strict=True):
-                own = self.speed * self.damped[group]
-                u[group] += rate[group] * (own.real * phasor.imag + own.imag * phasor.real)
-        if self.stands.any():
-            u[np.ix_((x < -1e-9)[self.place_of], self.stands)] = 0.0
-        return u
-
-    def _fade(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return how far the run-up has faded in at every place, and its slope; see `FadeIn`."""
-        ramp = np.maximum(self.lead_in, 1e-9) / 2
-        share = (x[:, None] + self.lead_in) / ramp
-        share[:, self.stands] = 1.0
-        angle = np.pi * np.clip(share, 0.0, 1.0)
-        return 0.5 - 0.5 * np.cos(angle), 0.5 * np.pi / ramp * np.sin(angle)
-
-    def _run_up(self) -> None:
-        r"""Take all cars to the first sample, t = 0, in closed form.
-
-        A wave that fades in with a half-cosine is a sum of three, of the frequencies w and w +- W,
-        W = pi V / ramp; the full wave follows from the end of the fade. For each, a mode stands at
-
-            z(0) = integral of exp(-s t) exp(i n t) = [exp((i n - s) t) / (i n - s)] over its time.
-
-        The chords between samples of a wave are lower than the wave itself, by the square of
-        sin(a) / a with a = n h / 2.
-        """
-        ramp = np.maximum(self.lead_in, 1e-9) / 2
-        delays = self.delays[self.place_of][:, None]
-        begin, end = ((delays - span) / self.speed for span in (self.lead_in, ramp))
-        begin, end = np.minimum(begin, 0.0), np.minimum(end, 0.0)
-        turn = np.pi * self.speed / ramp
-        wave = np.empty_like(self.input.real)
-        for group, k in zip(self.groups, self.waves, strict=True):
-            wave[group] = k * self.speed
-        # k r + c r' of a wave of another frequency: c i (n - w) more.
-        pieces = [(wave, np.ones_like(self.input), end, np.zeros_like(end))]
-        for way, share in ((0, 0.5), (1, -0.25), (-1, -0.25)):
-            phase = np.exp(-1j * way * turn * (delays - self.lead_in) / self.speed)
-            pieces.append((wave + way * turn, share * phase, begin, end))
-        u0 = self.rail_input(0, [np.ones(len(self.jobs), dtype=complex) for _ in self.waves])
-        for car in self.cars:
-            poles = car.poles[:, None]
-            standing = np.zeros(car.a.shape, dtype=complex)
-            for row in range(car.wheels.start, car.wheels.stop):
-                drive = (
-                    car.left[0][:, row - car.wheels.start]
-                    + 1j * car.left[1][:, row - car.wheels.start]
-                )
-                for n, share, since, until in pieces:
-                    size = self.input[row] + 1j * (n[row] - wave[row]) * self.damped[row]
-                    size = size * share[row] * np.sinc(n[row] * self.h / (2 * np.pi)) ** 2
-                    for sign, part in ((1, size), (-1, np.conj(size))):
-                        own = sign * 1j * n[row] - poles
-                        over = np.exp(own * until[row]) - np.exp(own * since[row])
-                        standing += drive[:, None] * (sign * part / 2j) * over / own
-            car.start(standing, u0[car.wheels])
 
     # ---- cars and deck
 
@@ -369,9 +171,9 @@ class _Batch:
             met = to_wheels[own][:, :, rows].reshape(2 * len(car.wheels), -1)
             loads = self.to_axles[rows, own]
             self.cars.append(
-                _Car(
-                    poles, a, b0, b1, _parts(left), _parts(right), _parts(left @ met),
-                    _parts(loads @ right), loads @ met, met, own, rows,
+                LaneCar(
+                    poles, a, b0, b1, parts_of(left), parts_of(right), parts_of(left @ met),
+                    parts_of(loads @ right), loads @ met, met, own, rows,
                     [np.zeros(a.shape, dtype=complex) for _ in range(self.passes + 1)],
                 )
             )  # fmt: skip
@@ -436,19 +238,16 @@ class _Batch:
     def run(self, outputs: Sequence[Output], numbers: Sequence[str]) -> np.ndarray:
         """Run all lanes and return what was asked of each."""
         meter = _Meter(self, outputs, numbers)
-        waves = [np.exp(1j * k * self.advance * np.arange(_BLOCK)[:, None]) for k in self.waves]
-        base: list[np.ndarray] = []
-        self._run_up()
+        for car in self.cars:
+            left = car.left[0] + 1j * car.left[1]
+            standing = self.rails.run_up(car.poles, left, car.wheels)
+            car.start(standing, self.rails.at(0)[car.wheels])
         for k in range(int(self.samples.max())):
             if k >= self.leaves and not meter.wheels:
                 self.deck_step(self.passes, self.nothing, k)
                 meter.read(k, None, None, self.nothing, None)
                 continue
-            place = k % _BLOCK
-            if place == 0 or not base:
-                base = [np.exp(1j * own * (k - place) * self.advance) for own in self.waves]
-            turned = [b * w[place] for b, w in zip(base, waves, strict=True)]
-            u = self.rail_input(k, turned)
+            u = self.rails.at(k)
             rigid = np.concatenate([car.rigid_forces(u[car.wheels]) for car in self.cars])
             rigid += self.static
             if k < self.leaves:
