@@ -115,7 +115,8 @@ class RailWaves:
         share = (x[:, None] + self.lead_in) / ramp
         share[:, self.stands] = 1.0
         angle = np.pi * np.clip(share, 0.0, 1.0)
-        return 0.5 - 0.5 * np.cos(angle), 0.5 * np.pi / ramp * np.sin(angle)
+        rate = np.where(self.stands, 0.0, 0.5 * np.pi / ramp * np.sin(angle))
+        return 0.5 - 0.5 * np.cos(angle), rate
 
     def run_up(self, poles: np.ndarray, left: np.ndarray, wheels: slice) -> np.ndarray:
         r"""Return where the modes of a car stand at the first sample, t = 0, in closed form.
@@ -144,7 +145,8 @@ class RailWaves:
         ramp = np.maximum(self.lead_in, 1e-9) / 2
         delays = self.delays[self.place_of][:, None]
         begin, end = (
-            np.minimum((delays - span) / self.speed, 0.0) for span in (self.lead_in, ramp)
+            np.minimum((delays - span) / self.speed, 0.0)
+            for span in (self.lead_in, self.lead_in / 2)
         )
         turn = np.pi * self.speed / ramp
         wave = np.empty_like(self.input.real)
