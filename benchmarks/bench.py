@@ -20,15 +20,24 @@ from scipy.integrate import solve_ivp
 import railbridge as rb
 from planar import opensees, problems
 
-MEMORY = """
-import os, resource, sys
+PEAK = """
+import pathlib, resource, sys
+status = pathlib.Path("/proc/self/status")
+if status.exists():
+    # The other number begins with what the program had that started this one.
+    lines = status.read_text().splitlines()
+    print(next(int(line.split()[1]) / 1024 for line in lines if line.startswith("VmHWM")))
+else:
+    unit = 1024.0 if sys.platform != "darwin" else 1024.0**2
+    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / unit)
+"""
+MEMORY = f"""
+import os
 os.environ["OMP_NUM_THREADS"] = "1"
 import railbridge as rb
-run = rb.case("paper").replace({"run.iterations": 4}).run()
+run = rb.case("paper").replace({{"run.iterations": 4}}).run()
 run.displacement(18.0), run.section_forces(18.0), run.reactions(), run.wheel_forces
-unit = 1024.0 if sys.platform != "darwin" else 1024.0**2
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / unit)
-"""
+{PEAK}"""
 IMPORT = """
 import sys, time
 start = time.perf_counter()

@@ -9,26 +9,25 @@ import os
 import sys
 import time
 import warnings
+from pathlib import Path
 
 os.environ["OMP_NUM_THREADS"] = "1"  # before NumPy is loaded
 
 import numpy as np
 
 import railbridge as rb
-from bench import best, fresh, machine
+from bench import PEAK, best, fresh, machine
 from railbridge import studies
 
 SPEEDS = np.linspace(100.0, 300.0, 101) / 3.6
 EDGE = 50
 MEMORY = """
-import os, resource, sys
+import os, sys
 os.environ["OMP_NUM_THREADS"] = "1"
-sys.path.insert(0, sys.argv[1] if len(sys.argv) > 1 else "benchmarks")
+sys.path.insert(0, "{folder}")
 import many
 many.map_of_speed_and_wavelength({edge})
-unit = 1024.0 if sys.platform != "darwin" else 1024.0**2
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / unit)
-"""
+{peak}"""
 
 
 def bridge():
@@ -124,8 +123,9 @@ def main():
         f"{1e3 * took / EDGE**2:.1f} ms a lane   one call each {alone:.0f} s, "
         f"{alone / took:.1f} times as long"
     )
-    for edge in (10, 30):
-        used = float(fresh(MEMORY.format(edge=edge))[0])
+    for edge in (12, 24, 48):
+        code = MEMORY.format(edge=edge, peak=PEAK, folder=Path(__file__).parent.as_posix())
+        used = float(fresh(code)[0])
         print(f"peak memory of a map of {edge} x {edge}: {used:.0f} MB")
     if "--workers" in sys.argv:
         against_workers()
