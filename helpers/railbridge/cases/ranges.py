@@ -14,7 +14,7 @@ import numpy as np
 from .. import errors, units
 from ..errors import InputError
 
-__all__ = ["MOST", "values_of", "written_range"]
+__all__ = ["MOST", "values_of", "written_ends", "written_range"]
 
 MOST = 100_000
 """Values in one range; more are a slip."""
@@ -56,6 +56,20 @@ def written_range(field: str, text: str, dimension: str) -> np.ndarray:
         numbers = _stepped(field, text, *numbers)
     # Rounded, so that 25 km/h and 50 km/h / 2 are the same point.
     return np.round(np.array(numbers) * factor, 12)
+
+
+def written_ends(field: str, text: str, dimension: str) -> tuple[float, float] | None:
+    """Return both ends, SI, of a range without a step, ``150:300km/h``; None if it is none.
+
+    Raises
+    ------
+    InputError
+        As for `written_range`.
+    """
+    if text.count(":") != 1:
+        return None
+    low, high = written_range(field, text.replace(":", ","), dimension)
+    return float(low), float(high)
 
 
 def _stepped(field: str, given: Any, first: float, last: float, step: float) -> list[float]:

@@ -14,11 +14,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import errors, studies
-from ..codes import HSLM_A
 from ..errors import InputError
 from ..settings import MEMORY_LIMIT
 from . import shelf, staging, sweeping
-from .ranges import written_range
+from .ranges import written_ends, written_range
 from .speech import say, tell
 
 if TYPE_CHECKING:
@@ -117,7 +116,7 @@ def _named(trains: list[Any]) -> dict[str, Any]:
     """Return tables of trains by name, files and families opened."""
     tables: dict[str, Any] = {}
     for train in trains:
-        many = list(HSLM_A) if train == "HSLM-A" else [train]
+        many = sweeping.FAMILY if train == "HSLM-A" else [train]
         for one in many:
             name = Path(one).stem if _is_file(one) else one
             if not isinstance(name, str):
@@ -129,7 +128,8 @@ def _named(trains: list[Any]) -> dict[str, Any]:
 
 
 def _envelope(given: argparse.Namespace) -> int:
-    speeds = written_range("--speeds", given.speeds, "speed")
+    ends = written_ends("--speeds", given.speeds, "speed")
+    speeds = None if ends else written_range("--speeds", given.speeds, "speed")
     points = None
     if given.points is not None:
         points = written_range("--points", given.points, "length")
@@ -138,8 +138,14 @@ def _envelope(given: argparse.Namespace) -> int:
         raise InputError("--trains", given.trains, "must name at least one train")
     measure = [name.strip() for name in given.measure.split(",")]
     first = next(iter(trains.values()))
-    source = _case_of(given.deck, first, float(speeds[0]) if len(speeds) else 1.0)
+    source = _case_of(given.deck, first, float(ends[0] if ends else speeds[0]))
     with errors.within(names={"over[run.speed]": "--speeds"}):
+        if ends:
+            between = studies.Between(*ends)
+            # About as many are chosen; which, is seen on the way.
+            over = {"run.speed": np.linspace(*ends, studies.EVEN)}
+            plan = sweeping.planned(source, over, trains, measure, points)
+            return _carry_out(given, plan, "envelope", plan.deck.name, between)
         over = {"run.speed": speeds.tolist()}
         plan = sweeping.planned(source, over, trains, measure, points)
     return _carry_out(given, plan, "envelope", plan.deck.name)
@@ -161,7 +167,13 @@ def _case_of(name: str, train: dict[str, Any], speed: float) -> Any:
     return {"deck": {"file": str(path) if shelf.is_path(name) else name}, **own}
 
 
-def _carry_out(given: argparse.Namespace, plan: sweeping.Plan, name: str, title: str) -> int:
+def _carry_out(
+    given: argparse.Namespace,
+    plan: sweeping.Plan,
+    name: str,
+    title: str,
+    between: studies.Between | None = None,
+) -> int:
     errors.integer("--workers", given.workers, least=1, most=256)
     if given.chunk is not None:
         errors.integer("--chunk", given.chunk, least=1, most=100_000)
@@ -172,13 +184,18 @@ def _carry_out(given: argparse.Namespace, plan: sweeping.Plan, name: str, title:
         remedy = "Use fewer points or quantities, or several studies"
         raise InputError(name, len(plan.points), allowed, remedy)
     if given.dry_run and not (Path(given.out) / sweeping.STORE).exists():
-        return _with_store(given, plan, name, title, studies.MemoryStore())
+        return _with_store(given, plan, name, title, studies.MemoryStore(), between)
     with staging.growing(given.out, "--out") as folder:
-        return _with_store(given, plan, name, title, plan.store(folder))
+        return _with_store(given, plan, name, title, plan.store(folder), between)
 
 
 def _with_store(
-    given: argparse.Namespace, plan: sweeping.Plan, name: str, title: str, store: Any
+    given: argparse.Namespace,
+    plan: sweeping.Plan,
+    name: str,
+    title: str,
+    store: Any,
+    between: studies.Between | None,
 ) -> int:
     left = studies.remaining(plan.points, store)
     varied = " x ".join(f"{len(d.values)} {d.name}" for d in plan.dimensions)
@@ -198,7 +215,7 @@ def _with_store(
             )
         if given.dry_run:
             return 0
-        found = _computed(given, plan, store)
+        found = _computed(given, plan, store, between)
     except (KeyboardInterrupt, staging.Stopped) as stop:
         done = total - len(studies.remaining(plan.points, store))
         kept = f"{done} of {total} crossings are kept in {given.out}; the same command goes on"
@@ -231,7 +248,9 @@ def _estimate(plan: sweeping.Plan, left: list[studies.Point], store: Any, dry_ru
     return each * len(left)
 
 
-def _computed(given: argparse.Namespace, plan: sweeping.Plan, store: Any) -> xr.Dataset:
+def _computed(
+    given: argparse.Namespace, plan: sweeping.Plan, store: Any, between: studies.Between | None
+) -> xr.Dataset:
     from tqdm import tqdm
 
     client = None
@@ -252,7 +271,9 @@ def _computed(given: argparse.Namespace, plan: sweeping.Plan, store: Any) -> xr.
                 bar.refresh()
 
             options = {"chunk": given.chunk, "workers": given.workers, "client": client}
-            return plan.carried_out(store, progress=progress, **options)
+            carry_out = plan.chosen if between else plan.carried_out
+            given_speeds = {"between": between} if between else {}
+            return carry_out(store, progress=progress, **given_speeds, **options)
     finally:
         if client is not None:
             client.close()

@@ -12,12 +12,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import errors, studies
+from ..codes import HSLM_A
 from ..decks import Deck
 from ..errors import InputError
 from ..results import Crossing
 from ..studies import Asked, Dimension, Job, Point, Row
 from ..trains import AnyTrain, AxleTrain
+from .axletrains import train as load_train
 from .definition import Case, case
+from .objects import deck as load_deck
 from .ranges import values_of
 from .summary import summarize
 
@@ -29,6 +32,8 @@ __all__ = ["Plan", "planned", "speed_envelope", "sweep"]
 STORE = "points.zarr"
 """What a study keeps its finished points in, inside its folder."""
 MEASURE = ("displacement_z", "acceleration_z")
+FAMILY = [f"HSLM-{name}" for name in HSLM_A]
+"""What HSLM-A means: all ten."""
 SIDE_BY_SIDE = 128
 """Crossings of cars from which on they are computed side by side."""
 
@@ -72,8 +77,8 @@ class Plan:
         Names of what is kept; the modal part is that of the first deck.
     trains : dict
         By name, where there are several.
-    deck : Deck
-        Of the case as it is.
+    like : Case
+        The first of its cases.
     title : str
     """
 
@@ -81,8 +86,13 @@ class Plan:
     points: tuple[Point, ...]
     asked: Asked
     trains: dict[str, AnyTrain]
-    deck: Deck
+    like: Case
     title: str
+
+    @property
+    def deck(self) -> Deck:
+        """That of the first case."""
+        return self.like.deck
 
     @cached_property
     def task(self) -> Task:
@@ -96,6 +106,18 @@ class Plan:
             return studies.WIDTH
         constant = all(p.refusal or isinstance(p.task[2].train, AxleTrain) for p in self.points)
         return 1024 if constant else studies.CHUNK
+
+    def chosen(
+        self, store: Any, between: studies.Between, chunk: int | None = None, **options: Any
+    ) -> xr.Dataset:
+        """Return all at speeds that are chosen; see `studies.speed_envelope`."""
+        outputs = self.asked.outputs
+        own = {key: value for key, value in self.like.options.items() if key != "speed"}
+        return studies.speed_envelope(
+            self.deck, self.trains, between, list(dict.fromkeys(o.x for o in outputs)),
+            list(dict.fromkeys(o.quantity for o in outputs)), track=self.like.track,
+            numbers=self.asked.numbers, store=store, chunk=chunk, **options, **own,
+        )  # fmt: skip
 
     @property
     def columns(self) -> list[str]:
@@ -173,13 +195,14 @@ def planned(
     if total > 1_000_000:
         allowed = f"{total} crossings, at most a million in one study"
         raise InputError("over", None, allowed, "Use fewer values, or several studies")
-    ways = [{"train": table} for table in named.values()] or [{}]
+    ways = [_way(base, table) for table in named.values()] or [{}]
     cases = _Cases(base, ways, by_path)
     cases.check_each()
     quantities, numbers, paths = _sorted_measures(measure)
     found: list[Point] = []
     asked_by_deck: dict[int, Asked] = {}
     made_trains: dict[str, AnyTrain] = {}
+    like: Case | None = None
     keys: dict[int, str] = {}
     kept: list[Any] = []  # so that no id is used twice
 
@@ -196,11 +219,12 @@ def planned(
         except InputError as error:
             found.append(Point("", refusal=str(error)))
             continue
+        like = own if like is None else like
         if named:
             made_trains.setdefault(list(named)[way], own.train)
         deck_key = key_of(own.deck, lambda deck, a=asked: studies.print_of_deck(deck, a))
         parts = key_of(own.train, studies.fingerprint), key_of(own.track, studies.fingerprint)
-        key = studies.fingerprint(deck_key, *parts, own.settings)
+        key = studies.print_of_crossing(deck_key, *parts, own.settings)
         job = Job(own.train, own.track, own.settings)
         able = studies.eligible(own.deck, job, asked.outputs, bool(asked.more))
         group = studies.advance_of(own.settings) if able else ""
@@ -209,7 +233,7 @@ def planned(
         raise InputError("over", None, found[0].refusal)
     asked = next(iter(asked_by_deck.values()))
     title = " x ".join(f"{len(d.values)} {d.name}" for d in dimensions)
-    return Plan(tuple(dimensions), tuple(found), asked, made_trains, base.deck, title)
+    return Plan(tuple(dimensions), tuple(found), asked, made_trains, like, title)
 
 
 class _Cases:
@@ -257,6 +281,22 @@ class _Cases:
                         raise
 
 
+def _way(base: Case, table: dict[str, Any]) -> dict[str, Any]:
+    """Return the changes that put another train in a case.
+
+    Bare axle loads have no cars to condense and nothing to iterate: what the case says of that is
+    left out for them.
+    """
+    bare = {"name", "file", "axles", "loads"} & table.keys()
+    own = {"train": table}
+    track = base.get("train.track")
+    if track is not None and "track" not in table:
+        own["train"] = {**table, "track": track}
+    if bare:
+        own |= {f"run.{key}": None for key in ("loads", "iterations", "relaxation")}
+    return own
+
+
 def _dimension(path: str, values: list[Any], by_path: Mapping[str, Any]) -> Dimension:
     last = path.split(".")[-1]
     alone = sum(other.split(".")[-1] == last for other in by_path) == 1
@@ -269,24 +309,36 @@ def trains_of_case(trains: Any) -> dict[str, dict[str, Any]]:
     """Return tables of trains by name, as a case has them under ``train``."""
     if trains is None:
         return {}
-    if isinstance(trains, (str, Mapping)) and not (
-        isinstance(trains, Mapping) and all(isinstance(t, Mapping) for t in trains.values())
-    ):
-        trains = [trains]
-    if not isinstance(trains, Mapping):
-        names: dict[str, Any] = {}
-        for i, train in enumerate(trains, 1):
-            name = train if isinstance(train, str) else f"train {i}"
-            if name in names:
-                raise InputError("trains", name, "is named twice", "Give each once")
-            names[name] = {"name": train} if isinstance(train, str) else train
-        trains = names
-    if not trains:
+    if isinstance(trains, Mapping):
+        given = dict(trains)
+    else:
+        given = {}
+        single = isinstance(trains, (str, AxleTrain))
+        if not single and not isinstance(trains, (list, tuple)):
+            allowed = "must be names of trains, files, tables, or AxleTrains"
+            raise InputError("trains", trains, allowed)
+        for i, train in enumerate([trains] if single else trains, 1):
+            for one in FAMILY if isinstance(train, str) and train == "HSLM-A" else [train]:
+                name = one if isinstance(one, str) else getattr(one, "name", None) or f"train {i}"
+                name = Path(name).stem if name.endswith(".csv") else name
+                if name in given:
+                    raise InputError("trains", name, "is named twice", "Give each once")
+                given[name] = one
+    if not given:
         raise InputError("trains", trains, "must name at least one train")
-    return {
-        name: dict(errors.instance(f"trains[{name}]", train, Mapping))
-        for name, train in trains.items()
-    }
+    return {name: _table_of(name, train) for name, train in given.items()}
+
+
+def _table_of(name: str, train: Any) -> dict[str, Any]:
+    """Return a train as a case has it."""
+    if isinstance(train, str):
+        return {"file" if train.endswith(".csv") else "name": train}
+    if isinstance(train, AxleTrain):
+        return {"axles": list(train.axles), "loads": list(train.loads)}
+    if isinstance(train, Mapping):
+        return dict(train)
+    allowed = "must be a name, a .csv file, a table as in a case, or an AxleTrain"
+    raise InputError(f"trains[{name}]", train, allowed)
 
 
 def _sorted_measures(measure: Sequence[str]) -> tuple[list[str], list[str], list[str]]:
@@ -339,8 +391,9 @@ def sweep(
     over : mapping
         Values by path: ``{"run.speed": [20.0, 30.0]}``; also ``{"from": 20.0, "to": 80.0, "step":
         2.0}`` or with ``count``. Any key of the case.
-    trains : sequence of names, or mapping of train tables by name, optional
-        Instead of the case's own train.
+    trains : name, file, table or AxleTrain, several of them, or a mapping of these, optional
+        Instead of the case's own train, on its track; ``HSLM-A`` is all ten. For bare axle loads
+        ``run.loads`` and the iteration are left out: they have nothing to condense or to iterate.
     measure : sequence of str
         Quantities at `points` (`studies.OUTPUTS`), numbers of a crossing (`studies.NUMBERS`), or
         paths of its summary, as ``points[0].torsion.max.value``.
@@ -377,9 +430,21 @@ def speed_envelope(
 ) -> xr.Dataset:
     """Return the largest response of a deck to trains over speeds.
 
-    As `studies.speed_envelope`, with names or files where it wants decks and trains.
+    As `studies.speed_envelope`, with names or files where it wants decks and trains; ``HSLM-A`` is
+    all ten.
     """
-    from .objects import deck as load_deck
-
     made = deck if isinstance(deck, Deck) else load_deck(deck)
+    if isinstance(trains, str):
+        trains = [trains]
+    if isinstance(trains, (list, tuple)):
+        opened: dict[str, Any] = {}
+        for i, one in enumerate(trains, 1):
+            names = FAMILY if isinstance(one, str) and one == "HSLM-A" else [one]
+            for each in names:
+                train = load_train(each) if isinstance(each, str) else each
+                name = getattr(train, "name", None) or f"train {i}"
+                if name in opened:
+                    raise InputError("trains", name, "is named twice", "Give {name: train, ...}")
+                opened[name] = train
+        trains = opened
     return studies.speed_envelope(made, trains, speeds, *arguments, **options)

@@ -6,18 +6,18 @@ Labelled arrays need the extra ``study`` (xarray); results on disk need zarr, cl
 from .datasets import Dimension, dataset, table
 from .engine import NUMBERS, Asked, Job, Row, asked_of, respond
 from .envelopes import QUANTITIES, checked_speeds, named_trains, signature, speed_envelope
-from .fingerprints import fingerprint, print_of_deck
+from .fingerprints import fingerprint, print_of_crossing, print_of_deck
 from .lanes import WIDTH, advance_of, eligible
 from .outputs import OUTPUTS, outputs_at
-from .refinement import Between
+from .refinement import EVEN, Between
 from .resonance import repeated_distance, residual_acceleration, resonance_speeds
 from .store import MemoryStore, Store
 from .study import CHUNK, CHUNK_OF_LOADS, Point, carry_out, remaining
 
 __all__ = [
-    "Asked", "Between", "CHUNK", "CHUNK_OF_LOADS", "Dimension", "Job", "MemoryStore", "NUMBERS",
-    "OUTPUTS", "Point", "QUANTITIES", "Row", "Store", "WIDTH", "advance_of", "asked_of",
+    "Asked", "Between", "CHUNK", "CHUNK_OF_LOADS", "Dimension", "EVEN", "Job", "MemoryStore",
+    "NUMBERS", "OUTPUTS", "Point", "QUANTITIES", "Row", "Store", "WIDTH", "advance_of", "asked_of",
     "carry_out", "checked_speeds", "dataset", "eligible", "fingerprint", "named_trains",
-    "outputs_at", "print_of_deck", "remaining", "repeated_distance", "residual_acceleration",
-    "resonance_speeds", "respond", "signature", "speed_envelope", "table",
+    "outputs_at", "print_of_crossing", "print_of_deck", "remaining", "repeated_distance",
+    "residual_acceleration", "resonance_speeds", "respond", "signature", "speed_envelope", "table",
 ]  # fmt: skip

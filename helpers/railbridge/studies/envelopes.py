@@ -16,7 +16,7 @@ from ..tracks import Track
 from ..trains import AnyTrain, AxleTrain
 from .datasets import Dimension, dataset
 from .engine import Asked, Job, Row, asked_of, respond
-from .fingerprints import fingerprint, print_of_deck
+from .fingerprints import fingerprint, print_of_crossing, print_of_deck
 from .outputs import outputs_at
 from .refinement import SETTLED, Between, refined, starting_speeds
 from .resonance import repeated_distance, residual_acceleration
@@ -142,7 +142,7 @@ def speed_envelope(
     track = Track() if track is None else errors.instance("track", track, Track)
     if "speed" in options:
         raise InputError("speed", options["speed"], "is given by speeds", "Leave it out")
-    common = fingerprint(print_of_deck(deck, asked), track)
+    deck_print, track_print = print_of_deck(deck, asked), fingerprint(track)
     store = MemoryStore() if store is None else store
     task = OnDeck(deck, asked)
     if chunk is None:
@@ -151,14 +151,15 @@ def speed_envelope(
     how = {"chunk": chunk, "workers": workers, "client": client, "progress": progress}
 
     def planned(train: AnyTrain, along: np.ndarray) -> list[Point]:
-        own, found = fingerprint(common, train), []
+        own, found = fingerprint(train), []
         for speed in along.tolist():
             try:
                 settings = check(train, deck, track, speed=speed, **options)
             except InputError as error:
                 found.append(Point("", refusal=str(error)))
                 continue
-            found.append(Point(fingerprint(own, settings), Job(train, track, settings)))
+            key = print_of_crossing(deck_print, own, track_print, settings)
+            found.append(Point(key, Job(train, track, settings)))
         if all(point.refusal for point in found):
             check(train, deck, track, speed=float(along[0]), **options)  # which says why
         return found

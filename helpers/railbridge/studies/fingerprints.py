@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..decks import Deck
     from .engine import Asked
 
-__all__ = ["fingerprint", "print_of_deck"]
+__all__ = ["fingerprint", "print_of_crossing", "print_of_deck"]
 
 
 def fingerprint(*contents: Any) -> str:
@@ -49,6 +49,11 @@ def print_of_deck(deck: Deck, asked: Asked) -> str:
     own = {f.name: getattr(deck, f.name) for f in fields(deck) if f.name not in _OF_PEOPLE}
     outputs = [(o.quantity, o.x, o.modal, o.line) for o in asked.outputs]
     return fingerprint(own, outputs, asked.numbers, sorted(asked.more))
+
+
+def print_of_crossing(deck: str, train: str, track: str, settings: Any) -> str:
+    """Return the fingerprint of a crossing from those of its deck, train and track."""
+    return fingerprint(deck, train, track, settings)
 
 
 _OF_PEOPLE = ("name", "recovery", "remarks", "mode_names", "tracks")

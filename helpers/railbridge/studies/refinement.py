@@ -20,11 +20,11 @@ from ..errors import InputError
 from ..trains import AnyTrain
 from .resonance import residual_acceleration, resonance_speeds
 
-__all__ = ["SETTLED", "Between", "refined", "starting_speeds"]
+__all__ = ["EVEN", "SETTLED", "Between", "refined", "starting_speeds"]
 
 SETTLED = 5e-3
 """Change of a peak, relative, that halving the steps may still make."""
-_EVEN, _FINE = 121, 2001
+EVEN, _FINE = 121, 2001
 _STANDS_OUT = 0.03
 """What a peak must stand above its surroundings, share of the highest; ripples are left alone."""
 _SAFE = 2.0
@@ -55,7 +55,7 @@ class Between:
 def starting_speeds(deck: Deck, train: AnyTrain, between: Between) -> np.ndarray:
     """Return where the search for peaks begins, m/s, ascending."""
     low, high = between.low, between.high
-    found = [np.linspace(low, high, _EVEN), resonance_speeds(deck, train, low, high)]
+    found = [np.linspace(low, high, EVEN), resonance_speeds(deck, train, low, high)]
     fine = np.linspace(low, high, _FINE)
     bound = residual_acceleration(deck, train, fine)
     if bound is not None:
