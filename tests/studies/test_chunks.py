@@ -150,3 +150,17 @@ def test_chunks_come_as_they_are_finished():
     """One slow chunk does not hold the others back."""
     found = [n for n, _ in completed(time.sleep, [1.5, 0.0, 0.0, 0.0], workers=2)]
     assert found[0] != 0 and sorted(found) == [0, 1, 2, 3]
+
+
+def threads_of(number):
+    return os.environ.get("OMP_NUM_THREADS")
+
+
+def test_processes_share_the_processors(monkeypatch):
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    share = str(max((os.cpu_count() or 1) // 2, 1))
+    assert set(dict(completed(threads_of, [0, 1, 2], workers=2)).values()) == {share}
+    assert "OMP_NUM_THREADS" not in os.environ, "here nothing has changed"
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    assert set(dict(completed(threads_of, [0, 1], workers=2)).values()) == {"3"}
+    assert os.environ["OMP_NUM_THREADS"] == "3"

@@ -7,6 +7,7 @@ points make a chunk does not depend on who computes it, so all three give the sa
 from __future__ import annotations
 
 import multiprocessing
+import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -20,6 +21,8 @@ __all__ = ["AHEAD", "completed", "split"]
 
 AHEAD = 2
 """Chunks a worker that wait for it; more would only fill memory."""
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""Read by the libraries behind products of matrices when they are loaded."""
 _TRIES = 3
 """How often a chunk is given to a worker before the study gives up: one that kills its worker each
 time would do so for ever."""
@@ -72,6 +75,7 @@ def _in_processes(task: Callable, chunks: Sequence[Any], workers: int) -> Iterat
         # Processes are started anew, so that none inherits a thread in the middle of its work.
         pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
         running: dict[Future, int] = {}
+        threads = _few_threads(workers)
         try:
             waiting = iter(list(left))
             while True:
@@ -98,7 +102,20 @@ def _in_processes(task: Callable, chunks: Sequence[Any], workers: int) -> Iterat
                         "smaller chunk"
                     ) from None
         finally:
+            for name in threads:
+                os.environ.pop(name, None)
             pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _few_threads(workers: int) -> list[str]:
+    """Let processes that are started now share the processors; return what was set for it.
+
+    What the user has set stays.
+    """
+    own = {name: str(max((os.cpu_count() or 1) // workers, 1)) for name in _THREADS}
+    new = {name: value for name, value in own.items() if name not in os.environ}
+    os.environ.update(new)
+    return list(new)
 
 
 def _on_cluster(task: Callable, chunks: Sequence[Any], client: Any) -> Iterator[tuple[int, Any]]:
