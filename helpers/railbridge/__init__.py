@@ -37,8 +37,8 @@ _ROOMS = {
     "boxes": ("Box", "BoxMesh", "Pads"),
     "cases": (
         "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table",
-        "open_study", "planar_car", "speed_envelope", "sprung_mass", "summarize", "sweep", "train", "train_list",
-        "two_bogie_car", "varied_car", "vehicle",
+        "open_study", "planar_car", "speed_envelope", "sprung_mass", "summarize", "sweep",
+        "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
     ),
     "codes": ("LoadModel", "hslm_b", "load_model"),
     "lessons": ("check",),

@@ -11,6 +11,6 @@ from .sweeping import speed_envelope, sweep
 
 __all__ = [
     "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table", "open_study",
-    "planar_car", "read_train", "speed_envelope", "sprung_mass", "summarize", "sweep", "train", "train_list",
-    "two_bogie_car", "varied_car", "vehicle",
+    "planar_car", "read_train", "speed_envelope", "sprung_mass", "summarize", "sweep", "train",
+    "train_list", "two_bogie_car", "varied_car", "vehicle",
 ]  # fmt: skip
