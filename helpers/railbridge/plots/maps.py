@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import Collection
 
 from ..decks import Deck
 from ..errors import InputError, choice
@@ -23,6 +24,8 @@ __all__ = ["at_place", "label_of", "map", "mark_point", "scale_of", "speed_axis"
 _MAGNITUDES, _SIGNED = "cividis", "PuOr_r"
 """Colours of what has no sign, and of what has; both for all kinds of colour vision."""
 _LEVELS = 12
+_ABOVE_GROUND = 1.2
+"""Of what is filled: above the ground of an axes, which a panel draws as one artist of many."""
 _CLIPPED = 2.0
 """Per cent of the points that may lie beyond either end of the colours."""
 _KM_H = 3.6
@@ -217,10 +220,12 @@ def _fill(
     colours = _SIGNED if signed else _MAGNITUDES
     beyond = finite.min() < levels[0], finite.max() > levels[-1]
     extend = {(False, False): "neither", (True, False): "min", (False, True): "max"}
-    areas = ax.contourf(
-        along, up, values, levels, cmap=colours, extend=extend.get(beyond, "both"), zorder=0
-    )
+    look = {"cmap": colours, "extend": extend.get(beyond, "both"), "zorder": _ABOVE_GROUND}
+    areas = ax.contourf(along, up, values, levels, **look)
     bar = ax.figure.colorbar(areas, ax=ax, pad=0.01, fraction=0.05)
+    for part in bar.ax.get_children():
+        if isinstance(part, Collection):
+            part.set_zorder(_ABOVE_GROUND)
     long = len(label) > 46
     bar.set_label(_broken(label) if long else label, fontsize=8.5)
     bar.ax.tick_params(labelsize=8)
@@ -260,10 +265,11 @@ def _draw_resonances(
         for suffix, look in (" below", {"color": "w", "lw": 3.4}), ("", {"color": "k", "lw": 1.3}):
             ls = {} if suffix else {"ls": dashes}
             curve(ax, f"resonance of the {name}{suffix}", *place, zorder=3, **look, **ls)
-        # Written where the line leaves the map.
-        words = f"{name}, {f:.3g} Hz"
-        ax.annotate(words, (place[0][-1], place[1][-1]), (-5, -2), textcoords="offset points",
-                    ha="right", va="top", size=8.5, bbox=_GROUND, zorder=5)  # fmt: skip
+        # Written above the end of the line, which falls to the left of it.
+        words, at_top = f"{name}, {f:.3g} Hz", up[-1] <= 1.02 * place[1][-1]
+        below = {"xytext": (-8, -3), "va": "top"} if at_top else {"xytext": (-4, 3), "va": "bottom"}
+        ax.annotate(words, (place[0][-1], place[1][-1]), textcoords="offset points", ha="right",
+                    size=8.5, bbox=_GROUND, zorder=5, **below)  # fmt: skip
 
 
 def _draw_zeros(
