@@ -266,7 +266,7 @@ def _draw_resonances(
             ls = {} if suffix else {"ls": dashes}
             curve(ax, f"resonance of the {name}{suffix}", *place, zorder=3, **look, **ls)
         # Written above the end of the line, which falls to the left of it.
-        words, at_top = f"{name}, {f:.3g} Hz", up[-1] <= 1.02 * place[1][-1]
+        words, at_top = f"{name}, {f:.3g} Hz", up[-1] <= 1.18 * place[1][-1]
         below = {"xytext": (-8, -3), "va": "top"} if at_top else {"xytext": (-4, 3), "va": "bottom"}
         ax.annotate(words, (place[0][-1], place[1][-1]), textcoords="offset points", ha="right",
                     size=8.5, bbox=_GROUND, zorder=5, **below)  # fmt: skip
