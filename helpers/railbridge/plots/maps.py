@@ -265,11 +265,12 @@ def _draw_resonances(
         for suffix, look in (" below", {"color": "w", "lw": 3.4}), ("", {"color": "k", "lw": 1.3}):
             ls = {} if suffix else {"ls": dashes}
             curve(ax, f"resonance of the {name}{suffix}", *place, zorder=3, **look, **ls)
-        # Written above the end of the line, which falls to the left of it.
-        words, at_top = f"{name}, {f:.3g} Hz", up[-1] <= 1.18 * place[1][-1]
-        below = {"xytext": (-8, -3), "va": "top"} if at_top else {"xytext": (-4, 3), "va": "bottom"}
-        ax.annotate(words, (place[0][-1], place[1][-1]), textcoords="offset points", ha="right",
-                    size=8.5, bbox=_GROUND, zorder=5, **below)  # fmt: skip
+        # Written below and to the right of a point of the line, which rises.
+        speed, own = (place[0], place[1]) if names[0] == "speed" else (place[1], place[0])
+        at = int(np.argmin(np.abs(speed - (0.45 * speeds[0] + 0.55 * speeds[-1]))))
+        point = (speed[at], own[at]) if names[0] == "speed" else (own[at], speed[at])
+        beside = {"xytext": (8, -3), "textcoords": "offset points", "va": "top"}
+        ax.annotate(f"{name}, {f:.3g} Hz", point, size=8.5, bbox=_GROUND, zorder=5, **beside)
 
 
 def _draw_zeros(
