@@ -37,8 +37,8 @@ _ROOMS = {
     "boxes": ("Box", "BoxMesh", "Pads"),
     "cases": (
         "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table",
-        "planar_car", "speed_envelope", "sprung_mass", "summarize", "sweep", "train", "train_list",
-        "two_bogie_car", "varied_car", "vehicle",
+        "open_study", "planar_car", "speed_envelope", "sprung_mass", "summarize", "sweep",
+        "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
     ),
     "codes": ("LoadModel", "hslm_b", "load_model"),
     "lessons": ("check",),
@@ -66,7 +66,7 @@ __all__ = [
     "NotConvergedError", "Notch", "Pads", "Passage", "Rails", "ResultWarning", "Spectrum", "Spring",
     "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box", "car_parameters", "case",
     "check", "compared", "cross", "data_root", "deck", "deck_from_table", "deviation_percent",
-    "hslm_b", "load_model", "planar_car", "rayleigh", "rayleigh_ratio", "remarks",
+    "hslm_b", "load_model", "open_study", "planar_car", "rayleigh", "rayleigh_ratio", "remarks",
     "speed_envelope", "sprung_mass", "steady_forces", "summarize", "sweep", "train", "train_list",
     "two_bogie_car", "varied_car", "vehicle",
 ]  # fmt: skip

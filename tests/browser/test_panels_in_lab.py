@@ -49,6 +49,10 @@ def steady_bounce(said, force):
     )
 
 
+def displacement_of_the_dot(said, w, t):
+    return f" m {1e3 * w:.2f} mm, " in said
+
+
 # Whether the summary says what the last line of the panel's code gives.
 SAID = {
     "00_start_here": displacement_at_iteration,
@@ -57,6 +61,7 @@ SAID = {
     "04_deck_modes": mode,
     "05_deck_response": largest_displacement,
     "06_fixed_point_iteration": displacement_at_iteration,
+    "07_speed_and_wavelength": displacement_of_the_dot,
 }
 
 

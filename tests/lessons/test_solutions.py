@@ -37,8 +37,10 @@ def replies(notebook):
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
 def test_every_solution_is_right(path):
     kept = json.loads(path.read_text(encoding="utf-8"))
-    if "Needs the extra `fem`" in editions.source(kept["cells"][0]) and not find_spec("pyfe3d"):
-        pytest.skip("needs the extra fem: pip install -e .[fem]")
+    for extra, package in ("fem", "pyfe3d"), ("study", "netCDF4"):
+        says = f"Needs the extra `{extra}`" in editions.source(kept["cells"][0])
+        if says and not find_spec(package):
+            pytest.skip(f"needs the extra {extra}: pip install -e .[{extra}]")
     made = nbformat.reads(json.dumps(editions.teacher(kept)), as_version=4)
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     NotebookClient(

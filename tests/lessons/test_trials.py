@@ -65,11 +65,17 @@ def lever_rule(x, force, places):
     return forces
 
 
+def resonances(f_1, distance, low, high):
+    last = int(f_1 * distance / low + 1e-9)
+    first = int(np.ceil(f_1 * distance / high - 1e-9))
+    return [f_1 * distance / i for i in range(last, max(first, 1) - 1, -1)]
+
+
 WRITTEN = {
     f.__name__: f
     for f in (
         frequencies, notch_shape, condense, rayleigh_coefficients, static_moment, fixed_point,
-        one_force, lever_rule,
+        one_force, lever_rule, resonances,
     )
 }  # fmt: skip
 

@@ -7,7 +7,10 @@ import railbridge as rb
 from railbridge import panels
 from railbridge.panels.code import case_lines
 
-NAMES = ["irregularities", "rigid_forces", "deck_modes", "deck_response", "fixed_point", "overview"]
+NAMES = [
+    "irregularities", "rigid_forces", "deck_modes", "deck_response", "fixed_point",
+    "map_and_crossing", "overview",
+]  # fmt: skip
 
 
 @pytest.fixture(scope="module")

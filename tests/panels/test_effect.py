@@ -17,6 +17,7 @@ BEHIND = {
         "displacement": "displacement_z ", "moment": "moment_vertical ",
     },
     "fixed_point": {"force": "rank 1", "displacement": "rank 1", "deviations": "rigid None"},
+    "map_and_crossing": {"force": "rank 1", "displacement": "displacement_z "},
     "overview": {"forces": "force_z", "moments": "moment_y", "displacement": "displacement_z "},
 }  # fmt: skip
 
@@ -49,6 +50,8 @@ def words_of_legends(panel):
 def move(panel):
     if "damping_ratio" in panel.controls:
         return panel.set(damping_ratio=0.02)
+    if "amplitude" not in panel.controls:
+        return panel.set(speed=40.0, wavelength=9.0)
     return panel.set(speed=40.0, amplitude=1e-3)
 
 

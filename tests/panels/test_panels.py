@@ -14,7 +14,10 @@ from matplotlib.image import imread
 import railbridge as rb
 from railbridge import panels
 
-NAMES = ["irregularities", "rigid_forces", "deck_modes", "deck_response", "fixed_point", "overview"]
+NAMES = [
+    "irregularities", "rigid_forces", "deck_modes", "deck_response", "fixed_point",
+    "map_and_crossing", "overview",
+]  # fmt: skip
 QUICK = {"run.time_step": None, "train.cars": 2}
 
 

@@ -46,6 +46,14 @@ def shell_and_modes():
     return shell, shell.modes(6)
 
 
+def speeds_and_waves():
+    import xarray as xr
+
+    values = np.array([[1.0, 2.0, 1.5], [1.0, 1.5, 4.0]])
+    variables = {"acceleration_z": (("train", "speed"), values, {"units": "m/s2"})}
+    return xr.Dataset(variables, {"train": ["A1", "A2"], "speed": [40.0, 50.0, 60.0]})
+
+
 @pytest.fixture(scope="module")
 def figures(case, run):
     """One call of every figure, by name."""
@@ -62,11 +70,13 @@ def figures(case, run):
         "deck_modes": lambda: plots.deck_modes(deck),
         "deviations": lambda: plots.deviations({"condensed": run}),
         "displacement": lambda: plots.displacement(run, 18.0, self_weight=True),
+        "envelope": lambda: plots.envelope(speeds_and_waves(), "acceleration_z", limit=1.0),
         "frequencies": lambda: plots.frequencies(car, {"second bending": 13.23}),
         "influence_line": lambda: plots.influence_line(deck, "moment_vertical", 18.0),
         "irregularity": lambda: plots.irregularity(track, -170.0, 50.0, lead_in=150.0, deck=deck),
         "iterations": lambda: plots.iterations(run, "displacement_z"),
         "load_modes": lambda: plots.load_modes({"condensed": run}, 18.0, "moment_vertical"),
+        "map": lambda: plots.map(rb.open_study("speed_wavelength"), "acceleration_z"),
         "notch": lambda: plots.notch(notch, 0.0, 10.0),
         "reactions": lambda: plots.reactions(run),
         "section_force": lambda: plots.section_force(run, 18.0, "torsion"),
@@ -104,11 +114,13 @@ LABELS = {
     "deck_modes": ([PLACE], ["shape (-)"]),
     "deviations": (["iteration"], ["deviation, Eq. 3 (%)"]),
     "displacement": ([TIME], ["vertical displacement (mm)"]),
+    "envelope": (["speed (m/s)"], ["acceleration z (m/s²)"]),
     "frequencies": ([HERTZ], []),
     "influence_line": (["place of the load, x (m)"], ["per unit upward load (m)"]),
     "irregularity": ([PLACE], ["irregularity r (mm)"]),
     "iterations": ([TIME], ["vertical displacement (mm)", "minus iteration 4 (mm)"]),
     "load_modes": ([TIME], ["vertical bending moment (kN m)"]),
+    "map": (["speed (m/s)"], ["wavelength (m)"]),
     "notch": (["place of the wheel from the bridge entrance (m)"], ["r (mm)"]),
     "reactions": ([TIME], ["vertical reaction (kN)"]),
     "section_force": ([TIME], ["torsion (kN m)"]),
@@ -140,11 +152,12 @@ def test_every_figure_has_its_labels_no_side_effects_and_a_legend_above_the_data
     for labels, known in zip((along, upright), LABELS[name], strict=True):
         assert list(dict.fromkeys(x.replace("\n", " ") for x in labels if x)) == known
     assert figure.get_figwidth() == FIGURE_WIDTH
-    # A legend stands above the data.
+    # A legend stands above the data, or beside them.
     for ax in axes:
         if ax.get_legend() is not None:
             box, frame = ax.get_legend().get_window_extent(), ax.get_window_extent()
-            assert box.y0 >= frame.y1 - 1.0 and box.x0 >= 0.0
+            assert box.y0 >= frame.y1 - 1.0 or box.x0 >= frame.x1 - 1.0
+            assert box.x0 >= 0.0 and box.x1 <= figure.bbox.x1 + 1.0
 
 
 def test_given_axes_are_used_and_returned(run):

@@ -42,6 +42,7 @@ def test_it_asks_for_what_the_pages_and_the_build_need():
     needed = [
         *PROJECT["project"]["dependencies"],
         *extras["fem"],
+        *extras["study"],
         *PROJECT["build-system"]["requires"],
     ]
     assert names(asked) == names(needed) and len(asked) == len(names(asked))

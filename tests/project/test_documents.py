@@ -1,20 +1,26 @@
 """What the documents say about commands and files is true."""
 
 import re
+import tomllib
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import nbformat
 import pytest
 import yaml
 
 import railbridge as rb
+from railbridge.cases import command as cli
 from railbridge.cases import pages
+from railbridge.cases.sweeping import planned
 from railbridge.units import UNITS
 
 ROOT = Path(__file__).resolve().parents[2]
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 TARGETS = dict(re.findall(r"^([a-z-]+):[^#\n]*## .*\n((?:\t.*\n)*)", MAKEFILE, re.MULTILINE))
-DOCUMENTS = ("README.md", "CONTRIBUTING.md", "docs/map.md", "docs/case.md", "docs/hub.md")
+DOCUMENTS = (
+    "README.md", "CONTRIBUTING.md", "docs/map.md", "docs/case.md", "docs/hub.md", "docs/studies.md",
+)  # fmt: skip
 
 
 def rows_of_commands(name):
@@ -110,3 +116,36 @@ def test_every_unit_is_on_the_case_page():
     for dimension, family in UNITS.items():
         row = next(x for x in listed.splitlines() if x.startswith(f"| {dimension} |"))
         assert re.findall("`(.+?)`", row) == [unit for unit in family if unit]
+
+
+STUDIES = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
+
+
+def blocks(language):
+    return re.findall(rf"```{language}\n(.*?)```", STUDIES, re.DOTALL)
+
+
+def test_the_python_of_the_page_on_studies_runs():
+    pytest.importorskip("xarray")
+    scope = {}
+    for block in blocks("python"):
+        exec(block, scope)
+    assert scope["found"].sizes["wavelength"] == 2
+    plt.close("all")
+
+
+def test_the_study_file_of_the_page_on_studies_is_one():
+    pytest.importorskip("xarray")
+    (text,) = blocks("toml")
+    study = tomllib.loads(text)
+    plan = planned(study["case"], study["over"], None, study["measure"], study["points"])
+    assert [len(d.values) for d in plan.dimensions] == [15, 4]
+
+
+def test_options_of_the_page_on_studies_exist(capsys):
+    for command in ("sweep", "envelope"):
+        with pytest.raises(SystemExit):
+            cli.main([command, "--help"])
+    said = capsys.readouterr().out
+    for option in set(re.findall(r"(?<![-\w])--[a-z][a-z-]+", STUDIES)):
+        assert option in said, option

@@ -72,7 +72,7 @@ PAGES = {
     # Two models, and how the box behind them was found.
     "14": Page(words=(500, 1900), code_lines=(40, 160)),
 }
-COURSE = ("00", "01", "02", "03", "04", "05", "06", "08")
+COURSE = ("00", "01", "02", "03", "04", "05", "06", "07", "08")
 CELL_LINES = 15
 PRINTED_LETTERS = (
     100  # what a page of the site shows; JupyterLab wraps longer lines in a narrow window

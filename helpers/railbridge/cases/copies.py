@@ -30,8 +30,10 @@ PAGES = (
     "LICENSE-notebooks.md",
     "docs/case.md",
     "docs/exchange.md",
+    "docs/studies.md",
     "docs/symbols.md",
     "docs/crossing.png",
+    "docs/speed_wavelength.png",
 )
 """What the notebooks lead to, besides each other and the data files."""
 TEACHING = "docs/teaching.md"

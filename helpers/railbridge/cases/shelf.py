@@ -54,7 +54,7 @@ def data_file(kind: str, name: str | Path, *suffixes: str) -> Path:
 
     Parameters
     ----------
-    kind : {"vehicles", "decks", "cases"}
+    kind : {"vehicles", "decks", "cases", "studies"}
         Folder of ``data``.
     name : str or Path
         A shipped name (``xia2000``), or the path of a file.
@@ -67,9 +67,10 @@ def data_file(kind: str, name: str | Path, *suffixes: str) -> Path:
         Unknown name (the nearest is suggested), missing file, other file type, or the same name as
         both CSV and TOML.
     """
-    field, suffixes = kind.removesuffix("s"), suffixes or (".csv", ".toml")
+    field = "study" if kind == "studies" else kind.removesuffix("s")
+    suffixes = suffixes or (".csv", ".toml")
     if not isinstance(name, (str, Path)) or not str(name).strip():
-        remedy = "Shipped: " + ", ".join(data_names(kind))
+        remedy = "Shipped: " + ", ".join(data_names(kind, *suffixes))
         raise InputError(field, name, "must be a name or a path", remedy)
     path = Path(name)
     if is_path(name):
@@ -95,7 +96,7 @@ def data_file(kind: str, name: str | Path, *suffixes: str) -> Path:
 def is_path(name: str | Path) -> bool:
     """Whether a name is the path of a file, not that of something shipped."""
     path = Path(name)
-    return path.suffix in (".csv", ".toml") or len(path.parts) > 1
+    return path.suffix in (".csv", ".toml", ".nc") or len(path.parts) > 1
 
 
 def _is_there(path: Path) -> bool:

@@ -364,6 +364,23 @@ def _lever_rule() -> list[Case]:
     ]
 
 
+def _resonances() -> list[Case]:
+    def case(words: str, f_1: float, distance: float, low: float, high: float) -> Case:
+        speeds = [f_1 * distance / i for i in range(1, 100)]
+        within = sorted(v for v in speeds if low <= v <= high)
+        return Case(words, (f_1, distance, low, high), np.array(within))
+
+    return [
+        case("4.5 Hz, 21 m, from 40 to 100 m/s", 4.5, 21.0, 40.0, 100.0),
+        case("3.3 Hz, 22.5 m, all speeds from 5 m/s", 3.3, 22.5, 5.0, 200.0),
+        case("6 Hz, 25 m, ends that are met", 6.0, 25.0, 50.0, 75.0),
+    ]
+
+
+def _descending(f_1: float, distance: float, low: float, high: float) -> np.ndarray:
+    return np.array([v for v in f_1 * distance / np.arange(1, 100) if low <= v <= high])
+
+
 TRIALS = {
     "frequencies": Trial(
         _frequencies,
@@ -399,5 +416,8 @@ TRIALS = {
     ),
     "one_force": Trial(_one_force, ("sag", "moment")),
     "lever_rule": Trial(_lever_rule),
+    "resonances": Trial(
+        _resonances, slips=(Slip(_descending, "they descend: sort them, the smallest first."),)
+    ),
 }
 """The functions that exercises ask for, by the name that each bears in its notebook."""

@@ -17,6 +17,7 @@ from .notebook_panels import (
     deck_response,
     fixed_point,
     irregularities,
+    map_and_crossing,
     overview,
     rigid_forces,
 )
@@ -24,5 +25,5 @@ from .panel import FALLBACK, Panel
 
 __all__ = [
     "FALLBACK", "Control", "Panel", "deck_modes", "deck_response", "fixed_point", "irregularities",
-    "overview", "rigid_forces",
+    "map_and_crossing", "overview", "rigid_forces",
 ]  # fmt: skip

@@ -12,9 +12,12 @@ import numpy as np
 from .. import plots
 from ..cases.definition import Case
 from ..cases.definition import case as load_case
+from ..cases.opening import open_study
 from ..decks import Deck, rayleigh
 from ..errors import Remark
+from ..plots.drawing import reuses_artists
 from ..plots.forces import car_components, mark_instant
+from ..plots.maps import mark_point
 from ..plots.scene import arrow_force, axle_forces, comfortable_exaggeration, crossing_at
 from ..plots.speeds import force_over_speed, frequency_met, speeds_in_step
 from ..plots.style import mode_in_words
@@ -25,7 +28,8 @@ from .control import Control
 from .panel import DPI, Panel
 
 __all__ = [
-    "deck_modes", "deck_response", "fixed_point", "irregularities", "overview", "rigid_forces",
+    "deck_modes", "deck_response", "fixed_point", "irregularities", "map_and_crossing", "overview",
+    "rigid_forces",
 ]  # fmt: skip
 
 ITERATIONS = 4
@@ -465,6 +469,68 @@ def fixed_point(case: Case | None = None) -> Panel:
             "displacement minus": ["rank 0"],
             "changes": ["changes None"],
             "deviations": ["rigid None", "previous None"],
+        },
+        start_name=_start_name(case),
+    )
+
+
+def map_and_crossing(
+    case: Case | None = None, study: Any = None, quantity: str = "deviation_wheel_force_z"
+) -> Panel:
+    """Panel of notebook 07: a dot on the map of speed and wavelength, and the crossing it is.
+
+    Parameters
+    ----------
+    case : Case, optional
+        Of which one car crosses, with true wheel loads and four iterations.
+    study : xarray.Dataset, optional
+        The map; default that of the paper's car and deck.
+    quantity : str
+        Variable of the study.
+    """
+    study = open_study("speed_wavelength") if study is None else study
+    planar = {"train.vehicle": "xia2000_planar"} if case is None else {}
+    alone = {**planar, **_ITERATED, "train.cars": 1, "run.loads": "wheels"}
+
+    def draw(axes, case, stages, values):
+        if not reuses_artists(axes["map"]):
+            plots.map(study, quantity, axes["map"])
+        mark_point(axes["map"], "now", values["speed"], values["wavelength"])
+        which = (0, max(stages))
+        plots.iterations(stages, "force_z", which, (axes["force"], axes["force minus"]))
+        plots.displacement(stages[max(stages)], case.points[0], axes["displacement"])
+
+    def say(case, stages, values):
+        x, heaviest, sags = case.points[0], [], []
+        for i in (0, max(stages)):
+            heaviest.append(-stages[i].wheel_forces[:, 1].min() / 1e3)
+            sags.append(1e3 * stages[i].displacement(x).extreme("displacement_z")[0])
+        return (
+            f"{_conditions_in_words(values)}forcing {_forcing(values):.3f} Hz; heaviest wheel or "
+            f"axle {heaviest[1]:.1f} kN, {heaviest[0]:.1f} kN on a rigid deck "
+            f"({100 * (heaviest[1] / heaviest[0] - 1):+.1f} %); displacement at x = {x:g} m "
+            f"{sags[1]:.2f} mm, {sags[0]:.2f} mm under rigid-deck forces "
+            f"({100 * (sags[1] / sags[0] - 1):+.1f} %)."
+        )
+
+    right = ["force", "force minus", "displacement"]
+    return Panel(
+        _starting_case(case, alone),
+        [_speed(), _wavelength()],
+        [["map", name] for name in right],
+        draw,
+        say,
+        compute=_by_iteration,
+        remarks=_of_last,
+        code="run = case.run()\nrb.plots.iterations(run, which=(0, 4))\n"
+        f'rb.plots.map(rb.open_study("speed_wavelength"), "{quantity}")\n{_SAG_CODE}',
+        size=(11.0, 5.6),
+        heights=[1.4, 1.0, 1.4],
+        rough=True,
+        behind={
+            "force": ["rank 1"],
+            "force minus": ["rank 0"],
+            "displacement": ["displacement_z "],
         },
         start_name=_start_name(case),
     )

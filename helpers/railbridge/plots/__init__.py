@@ -9,7 +9,9 @@ Colours and units are those of `style.QUANTITY_STYLES`: kN, kN m and mm.
 
 from .deck import damping, deck_mode, deck_modes, influence_line
 from .diagrams import diagram
+from .envelopes import envelope
 from .forces import car_forces, spectra, spectrum, wheel_force, wheel_forces
+from .maps import map
 from .motion import (
     animate_car_on_waves,
     animate_crossing,
@@ -36,8 +38,8 @@ from .track import frequencies, irregularity, notch, slope, wheel_paths, wheels_
 __all__ = [
     "acceleration", "animate_car_on_waves", "animate_crossing", "animate_rigid_and_flexible",
     "animate_vehicle_mode", "assurance", "box_section", "car_forces", "convergence", "damping",
-    "deck_mode", "deck_modes", "deviations", "diagram", "displacement", "frequencies",
-    "influence_line", "irregularity", "iterations", "load_modes", "notch", "reactions",
+    "deck_mode", "deck_modes", "deviations", "diagram", "displacement", "envelope", "frequencies",
+    "influence_line", "irregularity", "iterations", "load_modes", "map", "notch", "reactions",
     "section_force", "shell_mode", "shell_modes", "slope", "spectra", "spectrum", "train_on_deck",
     "vehicle", "vehicle_mode", "velocity", "wheel_force", "wheel_forces", "wheel_paths",
     "wheels_on_track",

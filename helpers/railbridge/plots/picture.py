@@ -16,6 +16,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import RendererAgg
 from matplotlib.colors import to_rgb
+from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
@@ -133,6 +134,8 @@ class Picture:
         self._drawn[ax] = self._background_of(ax)
 
     def _encoded(self) -> bytes:
+        if any(isinstance(a, ContourSet) for ax in self.figure.axes for a in ax.collections):
+            return self._encoded_in_full()
         packed = self._pixels.view("<u4").ravel()
         changed = np.flatnonzero(packed != self._background.view("<u4").ravel())
         index = self._indexed.copy()
@@ -141,6 +144,13 @@ class Picture:
         with Image.fromarray(index.reshape(self._pixels.shape[:2])) as picture:
             picture.putpalette(_palette()[0])
             picture.save(buffer, "png", compress_level=1)
+        return buffer.getvalue()
+
+    def _encoded_in_full(self) -> bytes:
+        """Return the picture in all of its colours: those of a map are not in the palette."""
+        buffer = BytesIO()
+        with Image.fromarray(self._pixels) as picture, picture.convert("RGB") as plain:
+            plain.save(buffer, "png", compress_level=1)
         return buffer.getvalue()
 
 
