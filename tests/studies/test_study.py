@@ -25,7 +25,7 @@ def test_rows_come_in_the_order_of_the_points_and_refusals_stay():
 
 def test_what_is_known_and_what_is_twice_is_computed_once():
     store, asked = MemoryStore(), []
-    store.add(["%032x" % 1], rows([1]))
+    store.add([f"{1:032x}"], rows([1]))
 
     def task(tasks):
         asked.extend(tasks)
@@ -38,7 +38,7 @@ def test_what_is_known_and_what_is_twice_is_computed_once():
 
 def test_progress_counts_what_was_known():
     store, seen = MemoryStore(), []
-    store.add(["%032x" % 1], rows([1]))
+    store.add([f"{1:032x}"], rows([1]))
     carry_out(
         points([1, 2, 3, 4]), rows, store, chunk=2, progress=lambda *numbers: seen.append(numbers)
     )

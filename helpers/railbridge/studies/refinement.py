@@ -24,7 +24,9 @@ __all__ = ["EVEN", "SETTLED", "Between", "refined", "starting_speeds"]
 
 SETTLED = 5e-3
 """Change of a peak, relative, that halving the steps may still make."""
-EVEN, _FINE = 121, 2001
+EVEN = 121
+"""Speeds of the even grid to begin with."""
+_FINE = 2001
 _STANDS_OUT = 0.03
 """What a peak must stand above its surroundings, share of the highest; ripples are left alone."""
 _SAFE = 2.0
