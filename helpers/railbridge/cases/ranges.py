@@ -67,7 +67,9 @@ def _stepped(field: str, given: Any, first: float, last: float, step: float) -> 
     if not count <= MOST:  # infinite or no number, too
         if not np.isfinite(count):
             raise InputError(field, given, "has more values than can be counted", _HOW)
-        raise InputError(field, given, f"has {count:.0f} values, at most {MOST}", "Use a larger step")
+        raise InputError(
+            field, given, f"has {count:.0f} values, at most {MOST}", "Use a larger step"
+        )
     return [first + i * step for i in range(int(count))]
 
 

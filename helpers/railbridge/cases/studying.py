@@ -20,7 +20,7 @@ from ..codes import HSLM_A
 from ..errors import InputError
 from ..settings import MEMORY_LIMIT
 from . import shelf, staging, sweeping
-from .ranges import written_range
+from .ranges import values_of, written_range
 from .speech import say, tell
 
 if TYPE_CHECKING:
@@ -123,7 +123,10 @@ def _beside_table(train: Any, folder: Path) -> Any:
 
 def _found(file: str, folder: Path) -> str:
     # Whole, since a case looks for files beside itself.
-    return str((folder / file).absolute())
+    path = (folder / file).absolute()
+    if not path.is_file():
+        raise InputError("trains", file, "no such file")
+    return str(path)
 
 
 def _is_file(train: Any) -> bool:
@@ -147,6 +150,7 @@ def _named(trains: list[Any]) -> dict[str, Any]:
 
 def _envelope(given: argparse.Namespace) -> int:
     speeds = written_range("--speeds", given.speeds, "speed")
+    values_of("--speeds", speeds)
     points = None
     if given.points is not None:
         points = written_range("--points", given.points, "length")

@@ -3,8 +3,8 @@
 Labelled arrays need the extra ``study`` (xarray); results on disk need zarr, clusters distributed.
 """
 
-from .datasets import Dimension, dataset, table
 from .chunks import WorkerDiedError
+from .datasets import Dimension, dataset, table
 from .engine import NUMBERS, Asked, Job, Row, asked_of, respond
 from .envelopes import QUANTITIES, checked_speeds, named_trains, signature, speed_envelope
 from .extras import needed
@@ -17,8 +17,9 @@ from .study import CHUNK, Point, carry_out, chunked, remaining
 
 __all__ = [
     "Asked", "CHUNK", "Dimension", "Job", "MemoryStore", "NUMBERS", "OUTPUTS", "Point",
-    "QUANTITIES", "Row", "Store", "WIDTH", "WorkerDiedError", "advance_of", "asked_of", "carry_out", "checked_speeds", "chunked",
-    "dataset", "eligible", "fingerprint", "named_trains", "needed", "outputs_at", "print_of_deck",
+    "QUANTITIES", "Row", "Store", "WIDTH", "WorkerDiedError", "advance_of", "asked_of",
+    "carry_out", "checked_speeds", "chunked", "dataset", "eligible", "fingerprint", "named_trains",
+    "needed", "outputs_at", "print_of_deck",
     "remaining", "repeated_distance", "residual_acceleration", "resonance_speeds", "respond",
     "signature", "speed_envelope", "table",
 ]  # fmt: skip
