@@ -1,140 +1,191 @@
-"""One case over values of its keys, against the same cases one by one."""
+"""Sweeps: each point is what the case gives by itself; slips are told before any work."""
+
+import os
+import tomllib
 
 import numpy as np
 import pytest
 
 import railbridge as rb
-from railbridge.cases import sweeping
-from railbridge.cases.sweeping import planned, sweep
+from railbridge.cases import staging
+from railbridge.errors import InputError
+from railbridge.studies import engine
 
-BASE = {"train.cars": 1, "run.loads": "wheels", "run.iterations": 2}
-
-
-@pytest.fixture(scope="module")
-def case():
-    return rb.case("paper").replace(BASE)
-
-
-def test_every_point_is_its_case(case):
-    over = {"run.speed": [20.0, 30.0], "track.vertical.wavelength": [10.0, 14.4, 20.0]}
-    asked = ("displacement_z", "wheel_unloading", "points[0].torsion.max.value")
-    found = sweep(case, over, measure=asked)
-    assert dict(found.sizes) == {"speed": 2, "wavelength": 3, "x": 1}
-    assert found.speed.attrs == {"units": "m/s", "path": "run.speed"}
-    for v in over["run.speed"]:
-        for w in over["track.vertical.wavelength"]:
-            own = found.sel(speed=v, wavelength=w)
-            run = case.replace({"run.speed": v, "track.vertical.wavelength": w}).compute()
-            summary = rb.summarize(run, [18.0])
-            w_max = abs(run.displacement(18.0).extreme("displacement_z")[0])
-            assert own.displacement_z.item() == w_max
-            assert own.wheel_unloading.item() == run.wheel_unloading.max()
-            value = summary["points"][0]["torsion"]["max"]["value"]
-            assert own["points[0].torsion.max.value"].item() == value
-    assert set(found.message.values.ravel()) == {""}
-
-
-def test_any_key_may_vary_numbers_words_and_whole_decks(case):
-    over = {"deck.modes": [4, 8], "run.loads": ["wheels", "bogies"], "train.cars": [1, 2]}
-    found = sweep(case, over)
-    assert found.loads.values.tolist() == ["wheels", "bogies"]
-    for modes in (4, 8):
-        for loads in ("wheels", "bogies"):
-            own = case.replace({"deck.modes": modes, "run.loads": loads, "train.cars": 2})
-            w = abs(own.compute().displacement(18.0).extreme("displacement_z")[0])
-            assert found.displacement_z.sel(modes=modes, loads=loads, cars=2).item() == w
+pytest.importorskip("xarray")
+CASE = """
+[deck]
+length = 12.0
+bending_stiffness_vertical = 5e9
+mass = 8000.0
+damping = { modal = 0.02 }
+modes = 3
+elements = 12
+[train]
+vehicle = "xia2000_planar"
+[track]
+vertical = { kind = "harmonic", amplitude = 1e-3, wavelength = 10.0 }
+[run]
+speed = 40.0
+time_step = 4e-3
+lead_in = 0.0
+tail = 0.1
+tolerance = 1e-3
+[output]
+points = [6.0]
+"""
+BASE = tomllib.loads(CASE)
+SPEEDS = [30.0, 40.0]
 
 
-def test_a_value_that_is_refused_alone_stops_all_before_any_work(case, monkeypatch):
-    monkeypatch.setattr(sweeping.studies, "respond", None)
-    for over, said in [
-        ({"run.speed": [20.0, 900.0]}, r"run\.speed = 900.*at most 200"),
-        ({"run.sped": [20.0]}, "Did you mean 'speed'"),
-        ({"nothing": [1.0]}, "nothing: unknown key"),
-        ({"track.vertical.wavelength": [0.0]}, "wavelength.*above 0"),
-        ({}, "nothing varies"),
-        ([20.0], "over.*must be a table"),
-    ]:
-        with pytest.raises(rb.InputError, match=said):
-            sweep(case, over)
-
-
-def test_values_that_are_refused_together_are_told_at_their_point(case):
-    """Steps of 30 ms do for 20 m/s but not for 85."""
-    smooth = case.replace({"track": {}, "run.iterations": None})
-    found = sweep(smooth, {"run.time_step": [1e-3, 3e-2], "run.speed": [20.0, 85.0]})
-    messages = found.message.sel(time_step=3e-2, speed=85.0).item()
-    assert "samples" in messages and "time_step" in messages
-    assert np.isnan(found.displacement_z.sel(time_step=3e-2, speed=85.0)).all()
-    assert found.message.sel(time_step=1e-3, speed=85.0).item() == ""
-
-
-def test_a_crossing_that_does_not_converge_is_told_at_its_point(case):
-    found = sweep(case.replace({"run.iterations": None}), {"run.max_iterations": [2, 60]})
-    assert "not converged" in found.message.sel(max_iterations=2).item()
-    assert np.isnan(found.displacement_z.sel(max_iterations=2)).all()
-    assert np.isfinite(found.displacement_z.sel(max_iterations=60)).all()
+def same(one, other):
+    assert one.attrs == other.attrs
+    for name in {*one.variables, *other.variables}:
+        a, b = one[name].values, other[name].values
+        assert a.tolist() == b.tolist() if a.dtype.kind in "UO" else a.tobytes() == b.tobytes()
 
 
 @pytest.mark.parametrize(
-    ("measure", "said"),
+    ("path", "values"),
     [
-        (["displacment_z"], "Did you mean 'displacement_z'"),
-        (["points[0].torsn.max"], "points.*no path of the summary.*torsion"),
-        (["points[7].torsion.max.value"], "leads nowhere at '7'"),
-        (["points[0]"], "must lead to a number"),
+        ("run.speed", SPEEDS), ("deck.mass", [7000.0, 9000.0]), ("train.cars", [1, 2]),
+        ("run.loads", ["condensed", "wheels"]), ("run.iterations", [1, 2]),
+        ("track.vertical", [{"kind": "smooth"}, BASE["track"]["vertical"]]),
     ],
-)
-def test_what_cannot_be_measured(case, measure, said):
-    with pytest.raises(rb.InputError, match=said):
-        sweep(case, {"run.speed": [20.0]}, measure=measure)
+)  # fmt: skip
+def test_each_point_is_what_the_case_gives(path, values):
+    paths = ["displacement_z", "iterations", "points[0].displacement_z.min.value"]
+    if path == "track.vertical":
+        values = [BASE["track"]["vertical"], {**BASE["track"]["vertical"], "wavelength": 9.0}]
+    found = rb.sweep(BASE, {path: values}, measure=paths)
+    assert not any(found.message.values.ravel())
+    for i, value in enumerate(values):
+        run = rb.case(BASE, {path: value}).compute()
+        own = run.displacement(6.0).extreme("displacement_z")[0]
+        assert found.displacement_z.values.ravel()[i] == pytest.approx(abs(own), rel=1e-12)
+        assert found["iterations"].values.ravel()[i] == run.iterations
 
 
-def test_places_off_a_deck_are_refused(case):
-    with pytest.raises(rb.InputError, match=r"points.*at most 36"):
-        sweep(case, {"run.speed": [20.0]}, points=[40.0])
+@pytest.mark.parametrize(
+    ("over", "more", "why"),
+    [
+        ({"run.sped": SPEEDS}, {}, "run.sped.*'speed'"), ({"run.speed": []}, {}, "empty"),
+        ({"run.speed": [40.0, 30.0]}, {}, "ascend"), ({}, {}, "nothing varies"),
+        ({"run.speed": [-1.0, 30.0]}, {}, r"run.speed = -1"), ([1], {}, "table of values"),
+        ({"run.speed": [30.0], "train.cars": [1]}, {"trains": ["HSLM-A1"]}, "train.cars"),
+        ({"run.speed": SPEEDS}, {"measure": []}, "at least one"),
+        ({"run.speed": SPEEDS}, {"measure": ["displacement_w"]}, "displacement_"),
+        ({"run.speed": SPEEDS}, {"trains": ["HSLM-A11"]}, "HSLM-A1"),
+        ({"run.speed": SPEEDS}, {"trains": {"t": {"axles": [0.0, 3.0, 3.0], "loads": [1e5] * 3}}},
+         "train.axles.*must ascend"),
+        ({"run.speed": SPEEDS}, {"workers": 0}, "workers"),
+        ({"run.speed": SPEEDS}, {"chunk": 0}, "chunk"),
+        ({"run.speed": SPEEDS}, {"points": [13.0]}, "points"),
+        ({a: np.linspace(1, 2, 100_000) for a in ("run.speed", "run.tail", "run.lead_in",
+          "run.tolerance")}, {}, "at most a million"),
+    ],
+)  # fmt: skip
+def test_slips_are_told_before_any_work(over, more, why):
+    with pytest.raises(InputError, match=why):
+        rb.sweep(BASE, over, **more)
 
 
-def test_two_keys_of_one_name_keep_their_paths(case):
-    over = {"track.vertical.wavelength": [14.4], "track.lateral.wavelength": [14.4, 20.0]}
-    assert set(sweep(case, over).sizes) == {*over, "x"}
+def test_points_beyond_a_shorter_deck_and_failures_are_recorded():
+    found = rb.sweep(BASE, {"deck.length": [8.0, 12.0]}, points=[9.0])
+    assert "points" in str(found.message.values[0])
+    assert np.isnan(found.displacement_z.values[0]).all()
+    assert np.isfinite(found.displacement_z.values[1]).all()
 
 
-def test_hundreds_of_cars_go_side_by_side_and_fewer_one_by_one(case):
-    twelve = np.linspace(0.0, 1.0, 12)
-    many = {"run.speed": 20 + 10 * twelve, "track.vertical.wavelength": 9 + 11 * twelve}
-    assert planned(case, many).task.side_by_side
-    assert not planned(case, {"run.speed": [20.0, 21.0]}).task.side_by_side
-    assert not planned(case.replace({"run.iterations": None}), many).task.side_by_side
+def test_whatever_a_point_fails_of_is_recorded(monkeypatch, tmp_path):
+    compute = engine.compute
+
+    def fails(train, deck, track, settings):
+        if settings.speed == 30.0:
+            raise ValueError
+        return compute(train, deck, track, settings)
+
+    monkeypatch.setattr(engine, "compute", fails)
+    found = rb.sweep(BASE, {"run.speed": SPEEDS}, out=tmp_path)
+    assert found.message.values.tolist() == ["ValueError: ", ""]
+    assert np.isnan(found.displacement_z.values[0]).all()
+    assert np.isfinite(found.displacement_z.values[1]).all()
 
 
-def test_finished_points_are_found_by_their_content(case, tmp_path, monkeypatch):
-    over = {"run.speed": [20.0, 25.0]}
-    first = sweep(case, over, out=tmp_path / "out")
-    computed = []
-    plain = sweeping.studies.respond
-    monkeypatch.setattr(
-        sweeping.studies,
-        "respond",
-        lambda deck, jobs, *more: computed.extend(jobs) or plain(deck, jobs, *more),
+def test_a_point_that_does_not_converge_is_recorded():
+    found = rb.sweep(BASE, {"run.max_iterations": [1, 50]})
+    assert "converge" in found.message.values[0]
+    assert found.message.values[1] == ""
+    assert np.isnan(found.displacement_z.values).ravel().tolist() == [True, False]
+
+
+def test_processes_and_a_folder_give_the_same_bits(tmp_path):
+    over = {"run.speed": [30.0, 35.0, 40.0, 45.0]}
+    serial = rb.sweep(BASE, over)
+    same(rb.sweep(BASE, over, out=tmp_path / "ä 'name\"", workers=2, chunk=1), serial)
+    counted = []
+    again = rb.sweep(BASE, over, out=tmp_path / "ä 'name\"", progress=lambda *a: counted.append(a))
+    same(again, serial)
+    assert counted == [(4, 4)]
+
+
+def test_other_points_of_the_summary_are_other_points(tmp_path):
+    own = "points[0].displacement_z.min.value"
+    a, b = (
+        rb.sweep(BASE, {"run.speed": [40.0]}, measure=[own], points=[x], out=tmp_path)[own].item()
+        for x in (3.0, 6.0)
     )
-    assert sweep(case, over, out=tmp_path / "out").identical(first) and not computed
-    wider = sweep(case, {"run.speed": [20.0, 22.0, 25.0]}, out=tmp_path / "out")
-    assert [job.settings.speed for job in computed] == [22.0]
-    assert wider.sel(speed=[20.0, 25.0]).identical(first.assign_attrs(wider.attrs))
-    computed.clear()
-    # The same by another way: a whole number, a key given as its default.
-    again = case.replace({"run.tail": 1.0})
-    sweep(again, {"run.speed": [20, 25]}, out=tmp_path / "out")
-    assert not computed
-    sweep(case.replace({"deck.modes": 6}), over, out=tmp_path / "out")
-    assert len(computed) == 2, "another deck is another crossing"
+    assert a != b
 
 
-def test_other_quantities_want_another_folder(case, tmp_path):
-    sweep(case, {"run.speed": [20.0]}, out=tmp_path)
-    with pytest.raises(rb.InputError, match="holds other quantities.*another folder"):
-        sweep(case, {"run.speed": [20.0]}, measure="torsion", out=tmp_path)
+def test_content_decides_and_not_the_name_of_a_file(tmp_path):
+    file = tmp_path / "case.toml"
+    file.write_text(CASE)
+    first = rb.sweep(file, {"run.speed": SPEEDS}, out=tmp_path / "o")
+    (tmp_path / "deeper").mkdir()
+    moved = file.rename(tmp_path / "deeper" / "other.toml")
+    seen = []
+    options = {"out": tmp_path / "o", "progress": lambda *each: seen.append(each)}
+    same(rb.sweep(moved, {"run.speed": SPEEDS}, **options), first)
+    assert seen == [(2, 2)]
+    moved.write_text(CASE.replace("8000", "9000"))
+    seen.clear()
+    second = rb.sweep(moved, {"run.speed": SPEEDS}, **options)
+    assert seen[0] == (0, 2)
+    assert (second.displacement_z != first.displacement_z).all()
+
+
+def test_two_writers_and_another_measure_are_refused(tmp_path):
+    rb.sweep(BASE, {"run.speed": SPEEDS}, out=tmp_path)
+    with pytest.raises(InputError, match="other quantities"):
+        rb.sweep(BASE, {"run.speed": SPEEDS}, measure=["moment_vertical"], out=tmp_path)
+    with (
+        staging.growing(os.fspath(tmp_path), "out"),
+        pytest.raises(InputError, match="out"),
+    ):
+        rb.sweep(BASE, {"run.speed": SPEEDS}, out=tmp_path)
+
+
+def test_a_cluster_of_two_workers_gives_the_same_bits(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    over = {"run.speed": [30.0, 35.0, 40.0, 45.0]}
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        same(rb.sweep(BASE, over, client=client, chunk=1, out=tmp_path), rb.sweep(BASE, over))
+
+
+@pytest.mark.parametrize("train", ["lanes", "constant"])
+def test_chunks_of_any_size_and_known_points_give_the_same_bits(tmp_path, train):
+    over = {"run.speed": np.linspace(30.0, 50.0, 130).tolist()}
+    more = {"trains": ["HSLM-A1"]} if train == "constant" else {}
+    whole = rb.sweep(BASE, over, **more)
+    rb.sweep(BASE, {"run.speed": over["run.speed"][5:9]}, out=tmp_path, **more)
+    again = rb.sweep(BASE, over, out=tmp_path, chunk=50, **more)
+    same(again, whole)
+    same(rb.sweep(BASE, over, chunk=50, workers=2, **more), whole)
 
 
 # ---- trains instead of the case's own

@@ -1,155 +1,90 @@
-"""Chunks computed here, in processes, on a cluster: the same bits, and nothing lost."""
+"""Chunks: the same results here, in processes and on a cluster; killed workers lose nothing."""
 
 import os
 import signal
-import time
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-import railbridge as rb
-from railbridge import studies
-from railbridge.studies.chunks import completed, split
+from railbridge.errors import InputError
+from railbridge.studies.chunks import WorkerDiedError, completed, split
 
 
-def square(numbers):
-    return [n * n for n in numbers]
+def square(chunk):
+    return [number * number for number in chunk]
 
 
-def kills_itself_once(argument):
-    """End the process that computes it, the first time."""
-    path, number = argument
-    mark = Path(path) / f"{number}"
-    if number == 2 and not mark.exists():
-        mark.write_text("was here")
-        os.kill(os.getpid(), signal.SIGKILL)
-    return number * 10
+def dies_once(chunk):
+    """Its worker is killed, the first time that the chunk of the number 3 is computed."""
+    folder, numbers = chunk
+    if 3 in numbers:
+        try:
+            Path(folder, "died").touch(exist_ok=False)
+        except FileExistsError:
+            pass
+        else:
+            os.kill(os.getpid(), signal.SIGKILL)
+    return square(numbers)
 
 
-def always_kills_itself(number):
-    if number == 1:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return number
-
-
-def fails(number):
-    raise ValueError(f"chunk {number}")
-
-
-@pytest.mark.parametrize(
-    ("count", "size", "lengths"), [(10, 4, [4, 4, 2]), (4, 4, [4]), (0, 4, []), (3, 10, [3])]
-)
-def test_points_are_cut_into_chunks(count, size, lengths):
-    chunks = split(count, size)
-    assert [len(chunk) for chunk in chunks] == lengths
-    assert [i for chunk in chunks for i in chunk] == list(range(count))
-
-
-@pytest.mark.parametrize("workers", [1, 2])
-def test_each_chunk_comes_once_with_its_number(workers):
-    chunks = [[i, i + 1] for i in range(7)]
-    found = dict(completed(square, chunks, workers=workers))
-    assert found == {i: [i * i, (i + 1) ** 2] for i in range(7)}
-
-
-@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")
-def test_a_worker_that_is_killed_loses_nothing(tmp_path):
-    chunks = [(str(tmp_path), i) for i in range(6)]
-    found = dict(completed(kills_itself_once, chunks, workers=2))
-    assert found == {i: 10 * i for i in range(6)} and (tmp_path / "2").exists()
-
-
-@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")
-def test_a_chunk_that_always_kills_its_worker_ends_the_study():
-    with pytest.raises(RuntimeError, match="died 3 times.*fewer workers"):
-        list(completed(always_kills_itself, [0, 1, 2], workers=2))
-
-
-@pytest.mark.parametrize("workers", [1, 2])
-def test_what_a_chunk_raises_is_raised_here(workers):
-    with pytest.raises(ValueError, match="chunk 0"):
-        list(completed(fails, [0, 1], workers=workers))
-
-
-# ---- a study, by every way there is
-
-
-def envelope(**how):
-    deck = rb.deck("viaduct36")
-    trains = {"A1": rb.train("HSLM-A1"), "A2": rb.train("HSLM-A2")}
-    return studies.speed_envelope(deck, trains, np.linspace(40.0, 60.0, 6), chunk=4, **how)
-
-
-def small_map(**how):
-    changes = {"train.cars": 1, "run.loads": "wheels", "run.iterations": 1, "run.tail": 0.05}
-    twelve = np.linspace(0.0, 1.0, 12)
-    over = {"run.speed": 70 + 10 * twelve, "track.vertical.wavelength": 20 + 11 * twelve}
-    return rb.sweep(rb.case("paper").replace(changes), over, chunk=64, **how)
+def dies_always(_):
+    os.kill(os.getpid(), signal.SIGKILL)
 
 
 @pytest.fixture(scope="module")
-def cluster():
-    distributed = pytest.importorskip("distributed")
-    options = {"threads_per_worker": 1, "host": "127.0.0.1", "dashboard_address": None}
+def client():
+    pytest.importorskip("distributed")
+    from distributed import Client, LocalCluster
+
     with (
-        distributed.LocalCluster(n_workers=2, processes=True, **options) as made,
-        distributed.Client(made) as client,
+        LocalCluster(
+            n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+        ) as cluster,
+        Client(cluster) as client,
     ):
-        client.wait_for_workers(2, timeout=60)
         yield client
 
 
-@pytest.mark.parametrize("study", [envelope, small_map])
-def test_processes_and_a_cluster_give_the_same_bits(study, cluster):
-    here = study()
-    assert study(workers=2).identical(here)
-    assert study(client=cluster).identical(here)
+def test_a_number_is_split_into_chunks_of_which_the_last_is_shorter():
+    assert [list(own) for own in split(5, 2)] == [[0, 1], [2, 3], [4]]
+    assert split(0, 2) == []
 
 
-def test_a_killed_worker_of_a_cluster_loses_nothing(cluster):
-    expected = envelope()
-    pids = list(cluster.run(os.getpid).values())
-    seen = []
-
-    def progress(done, total):
-        seen.append(done)
-        if len(seen) == 2:
-            os.kill(pids[0], signal.SIGKILL)
-
-    assert envelope(client=cluster, progress=progress).identical(expected)
-    cluster.wait_for_workers(1, timeout=60)
+def test_here_and_in_processes_each_chunk_comes_once():
+    chunks = [list(own) for own in split(11, 2)]
+    want = dict(enumerate(map(square, chunks)))
+    for workers in (1, 2):
+        found = list(completed(square, chunks, workers=workers))
+        assert len(found) == len(chunks)
+        assert dict(found) == want
 
 
-def test_a_cluster_without_workers_is_refused():
-    class Empty:
-        def scheduler_info(self, n_workers=None):
-            return {"workers": {}}
-
-    with pytest.raises(rb.InputError, match="client.*no workers.*Start workers"):
-        list(completed(square, [[1]], client=Empty()))
-
-
-@pytest.mark.parametrize(
-    ("answer", "said"),
-    [(ModuleNotFoundError("railbridge"), "does not have railbridge"), ("0.0.1", "has 0.0.1")],
-)
-def test_a_worker_without_the_package_is_named(answer, said):
-    class Bare:
-        def scheduler_info(self, n_workers=None):
-            return {"workers": {"tcp://10.0.0.7:1": {"nthreads": 1}}}
-
-        def run(self, function, *arguments, on_error):
-            return {"tcp://10.0.0.7:1": answer}
-
-    with pytest.raises(rb.InputError, match=rf"10\.0\.0\.7.*{said}.*Install version"):
-        list(completed(square, [[1]], client=Bare()))
+def test_a_killed_process_loses_nothing(tmp_path):
+    chunks = [(str(tmp_path), list(own)) for own in split(8, 1)]
+    found = list(completed(dies_once, chunks, workers=2))
+    assert len(found) == 8
+    assert dict(found) == {i: [i * i] for i in range(8)}
+    assert (tmp_path / "died").exists()
 
 
-def test_chunks_come_as_they_are_finished():
-    """One slow chunk does not hold the others back."""
-    found = [n for n, _ in completed(time.sleep, [1.5, 0.0, 0.0, 0.0], workers=2)]
-    assert found[0] != 0 and sorted(found) == [0, 1, 2, 3]
+def test_what_kills_its_process_each_time_is_given_up_in_words():
+    with pytest.raises(WorkerDiedError, match="chunk .* of 2.*fewer workers"):
+        list(completed(dies_always, [[1], [2]], workers=2))
+
+
+def test_a_cluster_gives_the_same_and_a_killed_worker_loses_nothing(client, tmp_path):
+    chunks = [(str(tmp_path), list(own)) for own in split(8, 1)]
+    assert dict(completed(square, [[1], [2]], client=client)) == {0: [1], 1: [4]}
+    client.wait_for_workers(2)
+    assert dict(completed(dies_once, chunks, client=client)) == {i: [i * i] for i in range(8)}
+    assert (tmp_path / "died").exists()
+
+
+def test_a_worker_without_the_package_is_named(client, monkeypatch):
+    client.wait_for_workers(2)
+    monkeypatch.setattr("railbridge.studies.chunks._version", lambda: "99.0")
+    with pytest.raises(InputError, match=r"its worker tcp.*Install version 99.0"):
+        list(completed(square, [[1]], client=client))
 
 
 def threads_of(number):

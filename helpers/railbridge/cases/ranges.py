@@ -43,7 +43,7 @@ def written_range(field: str, text: str, dimension: str) -> np.ndarray:
         found = _NUMBER.fullmatch(part)
         if not found:
             raise InputError(field, text, "is no range of numbers", _HOW)
-        numbers.append(float(found[1]))
+        numbers.append(errors.number(field, float(found[1])))
         if found[2]:
             named.append(units.spelled(found[2]))
     if len(set(named)) > 1:
@@ -77,10 +77,14 @@ def _stepped(field: str, given: Any, first: float, last: float, step: float) -> 
         raise InputError(field, given, "has a step that is not above 0", _HOW)
     if last < first:
         raise InputError(field, given, "ends before it begins", "Put the smaller number first")
-    count = int(np.floor((last - first) / step + 1e-9)) + 1
-    if count > MOST:
-        raise InputError(field, given, f"has {count} values, at most {MOST}", "Use a larger step")
-    return [first + i * step for i in range(count)]
+    count = np.floor((last - first) / step + 1e-9) + 1.0
+    if not count <= MOST:  # infinite or no number, too
+        if not np.isfinite(count):
+            raise InputError(field, given, "has more values than can be counted", _HOW)
+        raise InputError(
+            field, given, f"has {count:.0f} values, at most {MOST}", "Use a larger step"
+        )
+    return [first + i * step for i in range(int(count))]
 
 
 def values_of(field: str, given: Any) -> list[Any]:
@@ -99,7 +103,9 @@ def values_of(field: str, given: Any) -> list[Any]:
     """
     if isinstance(given, Mapping):
         given = _of_table(field, dict(given))
-    if isinstance(given, str) or not hasattr(given, "__iter__"):
+    if isinstance(given, np.ndarray):
+        given = given.tolist()
+    if isinstance(given, (str, bytes)) or not hasattr(given, "__iter__"):
         remedy = "Give a list, or { from, to, step }"
         raise InputError(field, given, "must be a list of values", remedy)
     found = [value.item() if isinstance(value, np.generic) else value for value in given]
@@ -111,6 +117,8 @@ def values_of(field: str, given: Any) -> list[Any]:
         numbers = errors.numbers(field, found)
         if np.any(np.diff(numbers) <= 0.0):
             raise InputError(field, found, "must ascend", "Sort the values, each once")
+    elif len({repr(value) for value in found}) < len(found):
+        raise InputError(field, found, "has a value twice", "Give each once")
     return found
 
 

@@ -6,8 +6,10 @@ Finished points stand in the folder as they come; the same command goes on where
 from __future__ import annotations
 
 import argparse
+import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +19,7 @@ from .. import errors, studies
 from ..errors import InputError
 from ..settings import MEMORY_LIMIT
 from . import shelf, staging, sweeping
-from .ranges import written_ends, written_range
+from .ranges import values_of, written_ends, written_range
 from .speech import say, tell
 
 if TYPE_CHECKING:
@@ -50,8 +52,8 @@ def add_commands(add: Callable[..., argparse.ArgumentParser]) -> None:
         "--cluster", metavar="ADDRESS", help="a running Dask scheduler, as tcp://host:8786"
     )
     common.add_argument(
-        "--chunk", type=int, default=studies.CHUNK, metavar="N",
-        help="points computed together, lost at most when it is stopped (default %(default)s)",
+        "--chunk", type=int, metavar="N",
+        help="points computed together, lost at most when it is stopped (default: some seconds)",
     )  # fmt: skip
     common.add_argument(
         "--hours", type=float, default=HOURS,
@@ -94,7 +96,7 @@ def _sweep(given: argparse.Namespace) -> int:
         errors.keys("", found, STUDY, ["case"])
         source = found["case"]
         if isinstance(source, str) and shelf.is_path(source):
-            source = path.parent / source
+            source = (path.parent / source).absolute()
         measure = found.get("measure", sweeping.MEASURE)
         trains = _beside(found.get("trains"), path.parent)
         plan = sweeping.planned(source, found.get("over", {}), trains, measure, found.get("points"))
@@ -103,9 +105,27 @@ def _sweep(given: argparse.Namespace) -> int:
 
 def _beside(trains: Any, folder: Path) -> Any:
     """Make files of trains, relative to the study, paths that can be opened from here."""
-    if isinstance(trains, list):
-        return _named([str(folder / t) if _is_file(t) else t for t in trains])
+    if isinstance(trains, str):
+        trains = [trains]
+    if isinstance(trains, list) and not any(isinstance(t, dict) for t in trains):
+        return _named([_found(t, folder) if _is_file(t) else t for t in trains])
+    if isinstance(trains, dict):
+        return {name: _beside_table(train, folder) for name, train in trains.items()}
     return trains
+
+
+def _beside_table(train: Any, folder: Path) -> Any:
+    if isinstance(train, dict) and isinstance(train.get("file"), str):
+        return {**train, "file": _found(train["file"], folder)}
+    return train
+
+
+def _found(file: str, folder: Path) -> str:
+    # Whole, since a case looks for files beside itself.
+    path = (folder / file).absolute()
+    if not path.is_file():
+        raise InputError("trains", file, "no such file")
+    return str(path)
 
 
 def _is_file(train: Any) -> bool:
@@ -130,10 +150,13 @@ def _named(trains: list[Any]) -> dict[str, Any]:
 def _envelope(given: argparse.Namespace) -> int:
     ends = written_ends("--speeds", given.speeds, "speed")
     speeds = None if ends else written_range("--speeds", given.speeds, "speed")
+    if speeds is not None:
+        values_of("--speeds", speeds)
     points = None
     if given.points is not None:
         points = written_range("--points", given.points, "length")
-    trains = _named([name.strip() for name in given.trains.split(",") if name.strip()])
+    listed = [name.strip() for name in given.trains.split(",") if name.strip()]
+    trains = _named([_found(t, Path()) if _is_file(t) else t for t in listed])
     if not trains:
         raise InputError("--trains", given.trains, "must name at least one train")
     measure = [name.strip() for name in given.measure.split(",")]
@@ -164,7 +187,7 @@ def _case_of(name: str, train: dict[str, Any], speed: float) -> Any:
         return sweeping.case(path)
     if {"deck", "run"} <= shelf.read_toml(path).keys():
         return sweeping.case(path)
-    return {"deck": {"file": str(path) if shelf.is_path(name) else name}, **own}
+    return {"deck": {"file": str(path.absolute()) if shelf.is_path(name) else name}, **own}
 
 
 def _carry_out(
@@ -178,9 +201,12 @@ def _carry_out(
     if given.chunk is not None:
         errors.integer("--chunk", given.chunk, least=1, most=100_000)
     errors.number("--hours", given.hours, above=0.0)
-    needed = _bytes(plan)
-    if needed > MEMORY_LIMIT:
-        allowed = f"the results would need {needed / 1e9:.3g} GB of memory"
+    studies.needed("xarray", "zarr", "netCDF4", "tqdm")
+    if given.cluster:
+        studies.needed("distributed")
+    memory = _bytes(plan)
+    if memory > MEMORY_LIMIT:
+        allowed = f"the results would need {memory / 1e9:.3g} GB of memory"
         remedy = "Use fewer points or quantities, or several studies"
         raise InputError(name, len(plan.points), allowed, remedy)
     if given.dry_run and not (Path(given.out) / sweeping.STORE).exists():
@@ -199,11 +225,10 @@ def _with_store(
 ) -> int:
     left = studies.remaining(plan.points, store)
     varied = " x ".join(f"{len(d.values)} {d.name}" for d in plan.dimensions)
-    total = len(plan.points)
+    total, known = len(plan.points), _known(plan, store)
     try:
         seconds = _estimate(plan, left, store, given.dry_run)
         seconds /= 1 if given.cluster else given.workers
-        known = total - len(left)
         said = f"{total} crossings ({varied})" + f", {known} known already" * bool(known)
         said += f"; {_bytes(plan) / 1e9:.2g} GB, about {_spoken(seconds)}"
         if given.dry_run or not given.quiet:
@@ -217,10 +242,13 @@ def _with_store(
             return 0
         found = _computed(given, plan, store, between)
     except (KeyboardInterrupt, staging.Stopped) as stop:
-        done = total - len(studies.remaining(plan.points, store))
+        done = _known(plan, store)
         kept = f"{done} of {total} crossings are kept in {given.out}; the same command goes on"
         say(f"stopped: {kept}")
         return 130 if isinstance(stop, KeyboardInterrupt) else 128 + stop.number
+    except studies.WorkerDiedError as error:
+        say(f"{error}. {_known(plan, store)} of {total} crossings are kept in {given.out}")
+        return 1
     _write(found, given.out, name)
     failed = [text for text in found.message.values.ravel().tolist() if text]
     if not given.quiet:
@@ -230,16 +258,24 @@ def _with_store(
     return FAILED if failed else 0
 
 
+def _known(plan: sweeping.Plan, store: Any) -> int:
+    """Return how many crossings have been computed; those that were refused are none."""
+    return sum(not point.refusal and point.key in store for point in plan.points)
+
+
 def _bytes(plan: sweeping.Plan) -> float:
     """Return about how much memory the results need, bytes, besides the program."""
     return 8.0 * len(plan.columns) * len(plan.points) * 6 + 2e8
 
 
 def _estimate(plan: sweeping.Plan, left: list[studies.Point], store: Any, dry_run: bool) -> float:
-    """Return about how long the rest takes, s, from two of its points."""
+    """Return about how long the rest takes, s, from two of its points or its first chunk."""
     if not left:
         return 0.0
-    chosen = [left[0], left[len(left) // 2]][: min(SAMPLED, len(left))]
+    if plan.chunk == studies.CHUNK:
+        chosen = [left[0], left[len(left) // 2]][: min(SAMPLED, len(left))]
+    else:  # computed together: a few would take as long, and make other chunks of the rest
+        chosen = studies.chunked(left, plan.chunk)[0]
     start = time.perf_counter()
     rows = plan.task([point.task for point in chosen])
     each = (time.perf_counter() - start) / len(chosen)
@@ -251,8 +287,6 @@ def _estimate(plan: sweeping.Plan, left: list[studies.Point], store: Any, dry_ru
 def _computed(
     given: argparse.Namespace, plan: sweeping.Plan, store: Any, between: studies.Between | None
 ) -> xr.Dataset:
-    from tqdm import tqdm
-
     client = None
     if given.cluster:
         from distributed import Client
@@ -263,13 +297,7 @@ def _computed(
             allowed = f"no scheduler answers there ({error})"
             raise InputError("--cluster", given.cluster, allowed) from None
     try:
-        with tqdm(total=0, unit="crossing", disable=given.quiet, leave=False) as bar:
-
-            def progress(done: int, of: int) -> None:
-                bar.total = of
-                bar.n = done
-                bar.refresh()
-
+        with _progress(given.quiet) as progress:
             options = {"chunk": given.chunk, "workers": given.workers, "client": client}
             carry_out = plan.chosen if between else plan.carried_out
             given_speeds = {"between": between} if between else {}
@@ -277,6 +305,38 @@ def _computed(
     finally:
         if client is not None:
             client.close()
+
+
+@contextmanager
+def _progress(quiet: bool) -> Iterator[Callable[[int, int], None] | None]:
+    """Tell how far it is and how long it takes: a bar in a terminal, else a line in ten seconds."""
+    if quiet:
+        yield None
+    elif sys.stderr.isatty():
+        from tqdm import tqdm
+
+        with tqdm(total=0, unit="crossing", leave=False) as bar:
+
+            def show(done: int, of: int) -> None:
+                if not bar.total:
+                    bar.initial = done  # found in the folder: says nothing about the time
+                bar.total, bar.n = of, done
+                bar.refresh()
+
+            yield show
+    else:
+        start = last = time.monotonic()
+        first: int | None = None
+
+        def line(done: int, of: int) -> None:
+            nonlocal first, last
+            first, now = done if first is None else first, time.monotonic()
+            if now - last >= 10.0 and done > first:
+                last = now
+                rest = (now - start) / (done - first) * (of - done)
+                say(f"{done} of {of} crossings, {_spoken(rest)} left")
+
+        yield line
 
 
 def _write(found: xr.Dataset, out: str, name: str) -> None:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import itertools
+import json
+import math
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,6 +21,7 @@ from ..errors import InputError
 from ..results import Crossing
 from ..studies import Asked, Dimension, Job, Point, Row
 from ..trains import AnyTrain, AxleTrain
+from . import staging
 from .axletrains import train as load_train
 from .definition import Case, case
 from .objects import deck as load_deck
@@ -188,17 +192,18 @@ def planned(
         if named and path.split(".")[0] == "train":
             raise InputError("over", path, "a key of the train, and trains are given too")
     dimensions = [Dimension("train", list(named))] if named else []
-    dimensions += [_dimension(path, values, by_path) for path, values in by_path.items()]
+    quantities, numbers, paths = _sorted_measures(measure)
+    taken = {"x", "train", "message", *studies.OUTPUTS, *studies.NUMBERS}
+    dimensions += [_dimension(path, values, by_path, taken) for path, values in by_path.items()]
     if not dimensions:
         raise InputError("over", dict(over), "nothing varies", "Give keys with values, or trains")
-    total = int(np.prod([len(d.values) for d in dimensions]))
+    total = math.prod(len(d.values) for d in dimensions)
     if total > 1_000_000:
         allowed = f"{total} crossings, at most a million in one study"
         raise InputError("over", None, allowed, "Use fewer values, or several studies")
     ways = [_way(base, table) for table in named.values()] or [{}]
     cases = _Cases(base, ways, by_path)
     cases.check_each()
-    quantities, numbers, paths = _sorted_measures(measure)
     found: list[Point] = []
     asked_by_deck: dict[int, Asked] = {}
     made_trains: dict[str, AnyTrain] = {}
@@ -232,6 +237,11 @@ def planned(
     if not asked_by_deck:
         raise InputError("over", None, found[0].refusal)
     asked = next(iter(asked_by_deck.values()))
+    places = [o.x for o in asked.outputs]
+    for other in asked_by_deck.values():
+        if [o.x for o in other.outputs] != places:
+            allowed = "are not the same on each of the decks"
+            raise InputError("points", None, allowed, "Name places that all decks have")
     title = " x ".join(f"{len(d.values)} {d.name}" for d in dimensions)
     return Plan(tuple(dimensions), tuple(found), asked, made_trains, like, title)
 
@@ -297,11 +307,16 @@ def _way(base: Case, table: dict[str, Any]) -> dict[str, Any]:
     return own
 
 
-def _dimension(path: str, values: list[Any], by_path: Mapping[str, Any]) -> Dimension:
+def _dimension(
+    path: str, values: list[Any], by_path: Mapping[str, Any], taken: set[str]
+) -> Dimension:
+    if not all(isinstance(value, (bool, int, float, str)) for value in values):
+        # A table or list is a value, too: its text stands at the axis.
+        values = [v if isinstance(v, str) else json.dumps(v, default=str) for v in values]
     last = path.split(".")[-1]
     alone = sum(other.split(".")[-1] == last for other in by_path) == 1
     known = {"speed": "m/s", "wavelength": "m", "amplitude": "m", "mass": "kg/m", "length": "m"}
-    plain = alone and last not in ("x", "train", "message")
+    plain = alone and last not in taken
     return Dimension(last if plain else path, values, known.get(last, ""), path)
 
 
@@ -343,7 +358,11 @@ def _table_of(name: str, train: Any) -> dict[str, Any]:
 
 def _sorted_measures(measure: Sequence[str]) -> tuple[list[str], list[str], list[str]]:
     """Return quantities at places, numbers of a crossing, and paths of the summary."""
-    measure = [measure] if isinstance(measure, str) else list(measure)
+    if not isinstance(measure, Sequence):
+        raise InputError("measure", measure, "must be a list of names")
+    measure = [measure] if isinstance(measure, str) else list(dict.fromkeys(map(str, measure)))
+    if not measure:
+        raise InputError("measure", measure, "must name at least one quantity or number")
     quantities, numbers, paths = [], [], []
     for name in measure:
         if name in studies.OUTPUTS:
@@ -420,9 +439,16 @@ def sweep(
     InputError
         Before anything is computed. A point that fails is NaN, with its reason in ``message``.
     """
+    errors.integer("workers", workers, least=1, most=256)
+    if chunk is not None:
+        errors.integer("chunk", chunk, least=1, most=100_000)
+    studies.needed("xarray")  # before the work, not after it
     plan = planned(source, over, trains, measure, points)
     options = {"chunk": chunk, "workers": workers, "client": client, "progress": progress}
-    return plan.carried_out(None if out is None else plan.store(out), **options)
+    if out is None:
+        return plan.carried_out(**options)
+    with staging.growing(os.fspath(out), "out") as folder:
+        return plan.carried_out(plan.store(folder), **options)
 
 
 def speed_envelope(

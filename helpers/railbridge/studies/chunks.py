@@ -8,16 +8,19 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from itertools import islice
 from typing import Any
 
 from ..errors import InputError
+from .extras import needed
 
-__all__ = ["AHEAD", "completed", "split"]
+__all__ = ["AHEAD", "WorkerDiedError", "completed", "split"]
 
 AHEAD = 2
 """Chunks a worker that wait for it; more would only fill memory."""
@@ -26,6 +29,10 @@ _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _TRIES = 3
 """How often a chunk is given to a worker before the study gives up: one that kills its worker each
 time would do so for ever."""
+
+
+class WorkerDiedError(RuntimeError):
+    """Workers died of the same chunk again and again."""
 
 
 def split(count: int, size: int) -> list[range]:
@@ -56,7 +63,7 @@ def completed(
     ------
     InputError
         The cluster has no workers, or workers that cannot load the package.
-    RuntimeError
+    WorkerDiedError
         A worker died of the same chunk again and again.
     """
     if client is not None:
@@ -73,7 +80,8 @@ def _in_processes(task: Callable, chunks: Sequence[Any], workers: int) -> Iterat
     left = list(range(len(chunks)))
     while left:
         # Processes are started anew, so that none inherits a thread in the middle of its work.
-        pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
+        context = multiprocessing.get_context("spawn")
+        pool = ProcessPoolExecutor(workers, mp_context=context, initializer=_begin)
         running: dict[Future, int] = {}
         threads = _few_threads(workers)
         try:
@@ -96,11 +104,15 @@ def _in_processes(task: Callable, chunks: Sequence[Any], workers: int) -> Iterat
             for number in running.values():
                 tries[number] += 1
                 if tries[number] == _TRIES:
-                    raise RuntimeError(
+                    raise WorkerDiedError(
                         f"a worker process died {_TRIES} times at chunk {number + 1} of "
                         f"{len(chunks)}: is there too little memory? Use fewer workers or a "
-                        "smaller chunk"
+                        'smaller chunk; a script must start it below `if __name__ == "__main__":`'
                     ) from None
+        except BaseException:  # stopped: nobody waits for what is half-done
+            for process in list((getattr(pool, "_processes", None) or {}).values()):
+                process.terminate()
+            raise
         finally:
             for name in threads:
                 os.environ.pop(name, None)
@@ -118,16 +130,39 @@ def _few_threads(workers: int) -> list[str]:
     return list(new)
 
 
+def _begin() -> None:
+    """Prepare a worker: Ctrl-C is its parent's affair, and it does not outlive a killed parent."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    if parent is None:
+        return
+
+    def watch() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+def _version() -> str:
+    try:
+        return version("railbridge")
+    except PackageNotFoundError:
+        return "none"
+
+
 def _on_cluster(task: Callable, chunks: Sequence[Any], client: Any) -> Iterator[tuple[int, Any]]:
+    needed("distributed")
     from distributed import as_completed
+    from distributed.scheduler import KilledWorker
 
     info = client.scheduler_info(n_workers=-1)["workers"]
     if not info:
         remedy = "Start workers, or give client.wait_for_workers(1) time"
         raise InputError("client", str(client), "the cluster has no workers", remedy)
-    here = version("railbridge")
+    here = _version()
     for name, found in client.run(version, "railbridge", on_error="return").items():
-        if found != here:
+        if found != here and not (here == "none" and isinstance(found, PackageNotFoundError)):
             has = "does not have railbridge" if isinstance(found, Exception) else f"has {found}"
             remedy = f"Install version {here} there: pip install railbridge[study]"
             raise InputError("client", str(client), f"its worker {name} {has}", remedy)
@@ -142,7 +177,15 @@ def _on_cluster(task: Callable, chunks: Sequence[Any], client: Any) -> Iterator[
 
     pool = as_completed([submit(*each) for each in islice(waiting, AHEAD * threads)])
     for future in pool:
-        yield numbers.pop(future.key), future.result()
+        number = numbers.pop(future.key)
+        try:
+            result = future.result()
+        except KilledWorker:
+            raise WorkerDiedError(
+                f"workers of the cluster died again and again at chunk {number + 1} of "
+                f"{len(chunks)}: is there too little memory? Use a smaller chunk"
+            ) from None
+        yield number, result
         for each in waiting:
             pool.add(submit(*each))
             break

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .engine import NUMBERS, Asked, Row
+from .extras import needed
 from .outputs import OUTPUTS
 
 if TYPE_CHECKING:
@@ -78,6 +79,7 @@ def dataset(
         ``_static`` (largest magnitude under the standing loads) and ``_dynamic_factor``. Every
         number. ``message``: why a point is NaN, empty where all is well.
     """
+    needed("xarray")
     import xarray as xr
 
     shape = tuple(len(d.values) for d in dimensions)

@@ -157,12 +157,26 @@ def respond(deck: Deck, jobs: Sequence[Job], asked: Asked, side_by_side: bool = 
     for own in lanes.values():
         for first in range(0, len(own), WIDTH):
             some = own[first : first + WIDTH]
-            found = run_lanes(deck, [jobs[i] for i in some], asked.outputs, asked.numbers)
+            try:
+                found = run_lanes(deck, [jobs[i] for i in some], asked.outputs, asked.numbers)
+            except Exception:  # one of them spoils it for all: each by itself says which
+                for i in some:
+                    rows[i] = _one(deck, jobs[i], asked)
+                continue
             for i, values in zip(some, found, strict=True):
                 rows[i] = _checked(values, asked)
     for (_, offset, tail), own in constant.items():
         train, speeds = jobs[own[0]].train, [jobs[i].settings.speed for i in own]
-        peaks = constant_loads(deck, train, speeds, asked.outputs, track_offset=offset, tail=tail)
+        try:
+            peaks = constant_loads(
+                deck, train, speeds, asked.outputs, track_offset=offset, tail=tail
+            )
+        except Exception as error:  # recorded, not fatal
+            if len(own) == 1:
+                rows[own[0]] = Row.failed(asked, _said(error))
+            for i in own if len(own) > 1 else ():
+                rows[i] = respond(deck, [jobs[i]], asked)[0]
+            continue
         heaviest = max(axle.static_load for axle in train.placed_axles)
         known = {
             "wheel_unloading": 0.0, "wheel_force_z": heaviest, "deviation_from_rigid": 0.0,
@@ -171,18 +185,22 @@ def respond(deck: Deck, jobs: Sequence[Job], asked: Asked, side_by_side: bool = 
         numbers = np.array([known[name] for name in asked.numbers])
         for n, i in enumerate(own):
             values = [getattr(peaks, name)[n] for name in _PEAKS]
-            rows[i] = Row(np.concatenate([*values, numbers]))
+            rows[i] = _checked(np.concatenate([*values, numbers]), asked)
     return rows
 
 
 def _one(deck: Deck, job: Job, asked: Asked) -> Row:
     try:
-        run = compute(job.train, deck, job.track, job.settings)
-    except (NotConvergedError, InputError) as error:
-        return Row.failed(asked, str(error))
-    except (ArithmeticError, np.linalg.LinAlgError, MemoryError) as error:
-        return Row.failed(asked, f"{type(error).__name__}: {error}")
-    return row_of_run(run, asked)
+        return row_of_run(compute(job.train, deck, job.track, job.settings), asked)
+    except Exception as error:  # whatever it is: recorded, not fatal to the others
+        return Row.failed(asked, _said(error))
+
+
+def _said(error: Exception) -> str:
+    """Return why a point failed: never empty, or it would count as one that did not."""
+    if isinstance(error, (NotConvergedError, InputError)):
+        return str(error)
+    return f"{type(error).__name__}: {error}"
 
 
 def row_of_run(run: Crossing, asked: Asked) -> Row:

@@ -125,7 +125,7 @@ def speed_envelope(
     -------
     xarray.Dataset
         Over ``train``, ``speed`` (m/s) and ``x`` (m); see `datasets.dataset`. ``signature``: the
-        bound of the residual influence line, where it applies; ``distance``: at which the axles of
+        acceleration by the residual influence line, where it applies; ``distance``: at which the axles of
         a train repeat, m.
 
     Raises
@@ -192,7 +192,7 @@ def signature(found: xr.Dataset, deck: Deck, trains: Mapping[str, AnyTrain]) -> 
     """Add what trains and deck alone say of resonance to a data set over train and speed."""
     bounds = [residual_acceleration(deck, train, found.speed.values) for train in trains.values()]
     if all(bound is not None for bound in bounds):
-        words = "bound of the residual influence line: mid-span, first mode"
+        words = "acceleration by the residual influence line: mid-span, first mode"
         own = {"units": "m/s2", "long_name": words}
         found = found.assign(signature=(("train", "speed"), np.array(bounds), own))
     distances = [repeated_distance(train) or np.nan for train in trains.values()]

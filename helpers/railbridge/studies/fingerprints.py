@@ -48,7 +48,8 @@ def print_of_deck(deck: Deck, asked: Asked) -> str:
     """
     own = {f.name: getattr(deck, f.name) for f in fields(deck) if f.name not in _OF_PEOPLE}
     outputs = [(o.quantity, o.x, o.modal, o.line) for o in asked.outputs]
-    return fingerprint(own, outputs, asked.numbers, sorted(asked.more))
+    more = {name: take if is_dataclass(take) else name for name, take in asked.more.items()}
+    return fingerprint(own, outputs, asked.numbers, more)
 
 
 def print_of_crossing(deck: str, train: str, track: str, settings: Any) -> str:
@@ -61,7 +62,10 @@ _OF_PEOPLE = ("name", "recovery", "remarks", "mode_names", "tracks")
 
 def _parts(content: Any) -> Iterator[bytes]:
     if content is None or isinstance(content, (bool, str)):
-        yield f"{type(content).__name__}:{content};".encode()
+        text = str(content).encode()
+        yield f"{type(content).__name__}:{len(text)}:".encode() + text
+    elif isinstance(content, np.bool_):
+        yield from _parts(bool(content))
     elif isinstance(content, (int, float, np.number)):
         yield f"number:{float(content)!r};".encode()
     elif isinstance(content, np.ndarray):
@@ -71,7 +75,7 @@ def _parts(content: Any) -> Iterator[bytes]:
     elif isinstance(content, Mapping):
         yield b"{"
         for key in sorted(content, key=str):
-            yield f"{key}:".encode()
+            yield from _parts(str(key))
             yield from _parts(content[key])
         yield b"}"
     elif isinstance(content, (list, tuple)):

@@ -1,17 +1,16 @@
 r"""Speeds at which a train of constant loads excites a deck, and how much it does at most.
 
 Loads that repeat at a distance d meet a mode in step at ``v = f d / i``. The residual influence
-line (LIR, ERRI D214) bounds the acceleration at mid-span of a simple span in its first mode, after
-any of the axles has left: every axle leaves the deck a free vibration, and those add up,
+line (LIR, ERRI D214) estimates the acceleration at mid-span of a simple span in its first mode,
+just after one of the axles has left: every axle leaves the deck a free vibration, and those add up,
 
     a_max = 2 / (mu L) A(K) G(lambda),   K = v / (2 L f),   lambda = v / f,
     A = |K / (1 - K^2)| sqrt(1 + exp(-2 pi zeta / K) + 2 exp(-pi zeta / K) cos(pi / K)),
     G = max over k of |sum over i <= k of P_i exp(2 pi (i - zeta) (x_k - x_i) / lambda)|.
 
-A belongs to the deck alone, G, the signature, to the train alone. It is an upper envelope, at
-resonance some tenths of a per cent to a few per cent above the exact peak of that mode. Wrong when
-the largest acceleration comes while axles are still on the deck: then it may lie below, at
-resonance by half a per cent.
+A belongs to the deck alone, G, the signature, to the train alone. At resonance it lies from half a
+per cent below to a few per cent above the exact peak of that mode. Wrong elsewhere: it knows
+nothing of the motion while axles are on the deck, nor of other modes.
 """
 
 from __future__ import annotations
@@ -63,7 +62,7 @@ def resonance_speeds(deck: Deck, train: AnyTrain, low: float, high: float) -> np
 
 
 def residual_acceleration(deck: Deck, train: AnyTrain, speeds: np.ndarray) -> np.ndarray | None:
-    """Return the residual influence line's bound of the acceleration at mid-span, m/s2.
+    """Return the acceleration at mid-span by the residual influence line, m/s2.
 
     None where it does not apply: several spans, or a deck whose mass is not known. NaN beside the
     speed 2 L f, where the formula divides by nothing.

@@ -1,12 +1,13 @@
 """Finished rows of a study on disk, found again by the fingerprint of what they depend on.
 
 A Zarr store with three arrays along the points: values, messages, fingerprints. A chunk is written
-into blocks of its own, fingerprints last: what a stopped program leaves is either a finished chunk
-or nothing that is looked at. Rows are only ever added.
+into blocks of its own, fingerprints last, each with a check of its row: what a stopped program
+leaves, or a damaged disk, is either a finished row or none. Rows are only ever added.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,14 +16,17 @@ import numpy as np
 
 from ..errors import InputError
 from .engine import Row
+from .extras import needed
 
 __all__ = ["BLOCK", "MemoryStore", "Store"]
 
 BLOCK = 64
 """Rows that are written together."""
-FORMAT = "railbridge study 1"
+FORMAT = "railbridge study 2"
 _MESSAGE = 400
 """Bytes of a message that are kept."""
+_KEY, _CHECK = 16, 8
+"""Bytes of a fingerprint, and of the check of a row behind it."""
 
 
 class MemoryStore:
@@ -36,7 +40,8 @@ class MemoryStore:
 
     def add(self, keys: Sequence[str], rows: Sequence[Row]) -> None:
         """Keep the rows of a chunk."""
-        self.rows.update(zip(keys, rows, strict=True))
+        short = [Row(row.values, _shortened(row.message)) for row in rows]
+        self.rows.update(zip(keys, short, strict=True))
 
     def get(self, keys: Sequence[str]) -> list[Row | None]:
         """Return rows by key, None where there is none yet."""
@@ -60,6 +65,7 @@ class Store:
     """
 
     def __init__(self, path: Path, columns: Sequence[str]) -> None:
+        needed("zarr")
         import zarr
 
         self.path = Path(path)
@@ -74,7 +80,7 @@ class Store:
             group.attrs.update({"format": FORMAT, "columns": json.dumps(list(columns))})
             for name, width, kind in (
                 ("values", len(columns), "f8"), ("messages", _MESSAGE, "u1"),
-                ("fingerprints", 16, "u1"),
+                ("fingerprints", _KEY + _CHECK, "u1"),
             ):  # fmt: skip
                 group.create_array(
                     name, shape=(0, width), chunks=(BLOCK, max(width, 1)), dtype=kind
@@ -102,16 +108,19 @@ class Store:
         return group
 
     def _read_places(self) -> dict[str, int]:
-        prints = self._group["fingerprints"]
+        prints, values = self._group["fingerprints"], self._group["values"]
+        messages = self._group["messages"]
         places: dict[str, int] = {}
         for first in range(0, prints.shape[0], BLOCK):
             try:
-                block = prints[first : first + BLOCK]
-            except Exception:  # half a block, of a program that was stopped while it wrote
+                some = slice(first, first + BLOCK)
+                block, numbers, texts = prints[some], values[some], messages[some]
+            except Exception:  # half a block, damaged or of a program stopped while it wrote
                 continue
-            for i, row in enumerate(block):
-                if row.any():
-                    places[row.tobytes().hex()] = first + i
+            for i, row in enumerate(block[: min(len(numbers), len(texts))]):
+                # A block whose file is gone reads as zeros: the check finds that out, too.
+                if row.any() and row[_KEY:].tobytes() == _check(numbers[i], texts[i]):
+                    places[row[:_KEY].tobytes().hex()] = first + i
         return places
 
     def __contains__(self, key: str) -> bool:
@@ -128,11 +137,14 @@ class Store:
         stop = start + len(keys)
         messages = np.zeros((len(keys), _MESSAGE), dtype=np.uint8)
         for i, row in enumerate(rows):
-            text = row.message.encode("utf-8")[:_MESSAGE]
+            text = _shortened(row.message).encode("utf-8")
             messages[i, : len(text)] = np.frombuffer(text, dtype=np.uint8)
-        prints = np.array([list(bytes.fromhex(key)) for key in keys], dtype=np.uint8)
+        numbers = np.array([row.values for row in rows], dtype=float)
+        checks = [_check(*each) for each in zip(numbers, messages, strict=True)]
+        both = [bytes.fromhex(key) + check for key, check in zip(keys, checks, strict=True)]
+        prints = np.array([list(each) for each in both], dtype=np.uint8)
         for name, values in (
-            ("values", np.array([row.values for row in rows])),
+            ("values", numbers),
             ("messages", messages),
             ("fingerprints", prints),
         ):
@@ -158,6 +170,20 @@ class Store:
                 text = texts[row].tobytes().rstrip(b"\0").decode("utf-8", errors="ignore")
                 found[i] = Row(numbers[row], text)
         return found
+
+
+def _check(values: np.ndarray, message: np.ndarray) -> bytes:
+    data = np.ascontiguousarray(values, dtype="<f8").tobytes() + message.tobytes()
+    return hashlib.blake2b(data, digest_size=_CHECK).digest()
+
+
+def _shortened(message: str) -> str:
+    """Return a message of at most so many bytes; one that was cut says so by its end."""
+    data = message.encode("utf-8", errors="backslashreplace")
+    if len(data) > _MESSAGE:
+        data = data[: _MESSAGE - 4]
+        return data.decode("utf-8", errors="ignore") + " ..."
+    return data.decode("utf-8")
 
 
 def _remove(path: Path) -> None:

@@ -10,7 +10,7 @@ from .chunks import completed, split
 from .engine import Row
 from .store import MemoryStore, Store
 
-__all__ = ["CHUNK", "CHUNK_OF_LOADS", "Point", "carry_out", "remaining"]
+__all__ = ["CHUNK", "CHUNK_OF_LOADS", "Point", "carry_out", "chunked", "remaining"]
 
 CHUNK = 64
 """Points of a chunk, if nothing else is asked for: of cars, each some hundredths of a second."""
@@ -49,6 +49,16 @@ def remaining(points: Sequence[Point], store: Store | MemoryStore) -> list[Point
     return list(left.values())
 
 
+def chunked(left: Sequence[Point], size: int) -> list[list[Point]]:
+    """Return points in chunks, in the order in which they are computed."""
+    by_group: dict[Any, list[Point]] = {}
+    for point in left:
+        by_group.setdefault(point.group, []).append(point)
+    return [
+        [group[i] for i in own] for group in by_group.values() for own in split(len(group), size)
+    ]
+
+
 def carry_out(
     points: Sequence[Point],
     task: Callable[[list[Any]], list[Row]],
@@ -79,12 +89,7 @@ def carry_out(
     list of Row, or of a text where a point was refused
     """
     left = remaining(points, store)
-    by_group: dict[Any, list[Point]] = {}
-    for point in left:
-        by_group.setdefault(point.group, []).append(point)
-    chunks = [
-        [group[i] for i in own] for group in by_group.values() for own in split(len(group), chunk)
-    ]
+    chunks = chunked(left, chunk)
     known = len({point.key for point in points if not point.refusal}) - len(left)
     done, total = known, known + len(left)
     if progress is not None:

@@ -1,0 +1,193 @@
+"""The commands `sweep` and `envelope`: killed and gone on with, refused in one line, exit codes."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from railbridge.cases import command as cli
+from railbridge.cases import shelf
+
+pytest.importorskip("zarr")
+xr = pytest.importorskip("xarray")
+
+CASE = (Path(__file__).with_name("test_sweeping.py").read_text(encoding="utf-8")).split('"""')[3]
+STUDY = """
+case = "case.toml"
+[over]
+"run.speed" = { from = 20.0, to = 49.0, step = 1.0 }
+"""
+SWEEP = ("sweep", "study.toml", "--chunk", "2", "--out")
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("case.toml").write_text(CASE, encoding="utf-8")
+    Path("study.toml").write_text(STUDY, encoding="utf-8")
+    deck = CASE.split("[deck]")[1].split("[train]")[0]
+    Path("deck.toml").write_text(deck, encoding="utf-8")
+    return tmp_path
+
+
+def command(capsys, *arguments):
+    code = cli.main(list(arguments))
+    shown = capsys.readouterr()
+    return code, shown.out, shown.err
+
+
+def identical(one, other):
+    with xr.open_dataset(one) as a, xr.open_dataset(other) as b:
+        assert a.identical(b)
+
+
+def blocks(folder):
+    return list(Path(folder, "points.zarr", "fingerprints").rglob("c/*/0"))
+
+
+def stopped_in_the_middle(number, *more):
+    """Exit code and stderr of a sweep that got a signal when some chunks were finished."""
+    arguments = [sys.executable, "-m", "railbridge", *SWEEP, "o", *more]
+    with subprocess.Popen(
+        arguments, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+    ) as program:
+        while len(blocks("o")) < 3 and program.poll() is None:
+            time.sleep(0.002)
+        program.send_signal(number)
+        return program.communicate(timeout=60)[1], program.returncode
+
+
+@pytest.mark.parametrize("more", [(), ("--workers", "2")])
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
+def test_a_stopped_sweep_goes_on_and_gives_the_same_bits(here, capsys, number, more):
+    said, code = stopped_in_the_middle(number, *more)
+    if number == signal.SIGKILL:
+        assert code == -signal.SIGKILL
+    else:
+        assert code in (130, -signal.SIGINT)
+        assert re.search(r"stopped: \d+ of 30 crossings are kept in o", said)
+        assert "Traceback" not in said
+    code, out, _ = command(capsys, *SWEEP, "o")
+    assert code == 0
+    known = int(re.search(r"(\d+) known already", out)[1])
+    assert 4 <= known < 30
+    assert command(capsys, *SWEEP, "whole")[0] == 0
+    identical("o/sweep.nc", "whole/sweep.nc")
+    assert Path("o/sweep.csv").read_bytes() == Path("whole/sweep.csv").read_bytes()
+    assert "30 known already" in command(capsys, *SWEEP, "o")[1]
+
+
+def test_an_envelope_has_one_row_a_train_speed_and_place(here, capsys):
+    more = ["--trains", "HSLM-A1,HSLM-A2", "--speeds", "150:200:25km/h", "--points", "3,6"]
+    code, out, _ = command(capsys, "envelope", "deck.toml", *more, "--out", "e", "--dry-run")
+    assert (code, os.path.exists("e")) == (0, False)
+    assert re.match(r"6 crossings \(2 train x 3 speed\); .* GB, about ", out)
+    assert command(capsys, "envelope", "deck.toml", *more, "--out", "e")[0] == 0
+    rows = Path("e/envelope.csv").read_text().splitlines()
+    assert len(rows) == 1 + 2 * 3 * 2
+    want = "train,speed,x,displacement_z,acceleration_z,moment_vertical,displacement_z_static"
+    assert rows[0].startswith(want)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "why"),
+    [
+        (("--trains", "HSLM-A1", "--speeds", "200,150km/h"), "--speeds.*ascend"),
+        (("--trains", "HSLM-A1", "--speeds", "1km/h:2:1m/s"), "mixes"),
+        (("--trains", "HSLM-A99", "--speeds", "50"), "HSLM-A9"),
+        (("--trains", ",", "--speeds", "50"), "at least one train"),
+        (("--trains", "HSLM-A1", "--speeds", "50", "--points", "99"), "99"),
+        (("--trains", "HSLM-A1", "--speeds", "50", "--workers", "0"), "--workers"),
+        (("--trains", "HSLM-A1", "--speeds", "50", "--chunk", "0"), "--chunk"),
+        (("--trains", "HSLM-A1", "--speeds", "50", "--hours", "1e-9"), "--hours"),
+        (("--trains", "HSLM-A1", "--speeds", "50", "--measure", "dispacement_z"), "displacement_z"),
+        (("--trains", "HSLM-A1", "--speeds", "1:9e9:1"), "at most"),
+        (("--trains", "no.csv", "--speeds", "50"), "no.csv"),
+        (("--trains", "HSLM-A1", "--speeds", "50", "--cluster", "nonsense"), "--cluster"),
+    ],
+)  # fmt: skip
+def test_slips_are_refused_in_one_line(here, capsys, arguments, why):
+    code, _, err = command(capsys, "envelope", "deck.toml", *arguments, "-q", "--out", "e")
+    assert (code, len(err.splitlines())) == (2, 1)
+    assert re.search(why, err)
+
+
+def test_places_that_cannot_be_written_are_refused(here, capsys):
+    Path("file").write_text("mine")
+    Path("foreign/points.zarr").mkdir(parents=True)
+    for out, why in (("file", "is a file"), ("file/in", "is a file"), ("foreign", "is no study")):
+        code, _, err = command(capsys, *SWEEP, out)
+        assert (code, why in err, err.count("\n")) == (2, True, 1)
+    assert Path("file").read_text() == "mine"
+
+
+def test_failed_points_are_counted_and_told(here, capsys):
+    Path("study.toml").write_text(
+        'case = "case.toml"\npoints = [9.0]\n[over]\n"deck.length" = [8.0, 12.0]\n'
+    )
+    code, out, _ = command(capsys, *SWEEP, "o")
+    assert code == 3
+    assert "1 of 2 crossings have no numbers" in out
+    assert "known already" not in out
+    again = command(capsys, *SWEEP, "o")
+    assert again[0] == 3
+    assert "1 known already" in again[1]
+
+
+def test_files_of_a_study_are_looked_for_beside_it(here, capsys, monkeypatch):
+    shutil.copy(shelf.data_file("trains", "ICE2", ".csv"), "mine.csv")
+    more = ("--trains", "mine.csv", "--speeds", "50", "--out", "a")
+    assert command(capsys, "envelope", "deck.toml", *more)[0] == 0
+    Path("study.toml").write_text(
+        'case = "case.toml"\ntrains = ["mine.csv"]\n[over]\n"run.speed" = [50.0]\n'
+    )
+    Path("deeper").mkdir()
+    monkeypatch.chdir("deeper")
+    assert command(capsys, "sweep", "../study.toml", "--out", "o")[0] == 0
+
+
+def alive(process):
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    stat = Path(f"/proc/{process}/stat")
+    return not stat.exists() or stat.read_text().rpartition(")")[2].split()[0] != "Z"
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="needs /proc")
+def test_processes_end_with_a_killed_parent(here):
+    Path("study.toml").write_text(STUDY.replace("step = 1.0", "step = 0.01"))
+    arguments = [sys.executable, "-m", "railbridge", *SWEEP, "o", "--workers", "2"]
+    with subprocess.Popen(arguments, stdout=subprocess.DEVNULL) as program:
+        while len(blocks("o")) < 3 and program.poll() is None:
+            time.sleep(0.002)
+        own = Path(f"/proc/{program.pid}/task/{program.pid}/children").read_text().split()
+        program.kill()
+    assert len(own) >= 2
+    end = time.monotonic() + 30.0
+    while any(alive(int(process)) for process in own):
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def test_a_missing_extra_is_said_in_words(here, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    code, _, err = command(capsys, *SWEEP, "o")
+    assert code == 2
+    assert "the package xarray is missing" in err
+    assert 'pip install "railbridge[study]"' in err
+
+
+def test_the_package_opens_without_the_packages_of_studies():
+    heavy = "xarray", "zarr", "dask", "distributed", "pandas", "tqdm"
+    program = f"import sys, railbridge as r; r.sweep; print({heavy} & sys.modules.keys())"
+    program = program.replace(str(heavy), str(set(heavy)))
+    found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (found.stdout.strip(), found.stderr) == ("set()", "")
