@@ -125,8 +125,8 @@ def speed_envelope(
     -------
     xarray.Dataset
         Over ``train``, ``speed`` (m/s) and ``x`` (m); see `datasets.dataset`. ``signature``: the
-        acceleration by the residual influence line, where it applies; ``distance``: at which the axles of
-        a train repeat, m.
+        acceleration by the residual influence line, where it applies; ``distance``: at which the
+        axles of a train repeat, m.
 
     Raises
     ------
@@ -190,11 +190,11 @@ def speed_envelope(
 
 def signature(found: xr.Dataset, deck: Deck, trains: Mapping[str, AnyTrain]) -> xr.Dataset:
     """Add what trains and deck alone say of resonance to a data set over train and speed."""
-    bounds = [residual_acceleration(deck, train, found.speed.values) for train in trains.values()]
-    if all(bound is not None for bound in bounds):
+    levels = [residual_acceleration(deck, train, found.speed.values) for train in trains.values()]
+    if all(level is not None for level in levels):
         words = "acceleration by the residual influence line: mid-span, first mode"
         own = {"units": "m/s2", "long_name": words}
-        found = found.assign(signature=(("train", "speed"), np.array(bounds), own))
+        found = found.assign(signature=(("train", "speed"), np.array(levels), own))
     distances = [repeated_distance(train) or np.nan for train in trains.values()]
     words = "distance at which axles repeat"
     return found.assign(distance=("train", distances, {"units": "m", "long_name": words}))
