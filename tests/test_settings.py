@@ -204,3 +204,13 @@ def test_a_car_s_front_is_asked_for_its_length_before_anything_is_computed():
     assert check(bare, DECK, rb.Track(), speed=20.0).excitation == "wheels"
     with pytest.raises(rb.InputError, match=r"excitation = 'car': .* has no length"):
         check(bare, DECK, rb.Track(), speed=20.0, excitation="car")
+
+
+def test_constant_loads_are_not_charged_for_passes():
+    """No deck changes them: HSLM-A1 at 54 km/h fits, where passes would have been too much."""
+    train, needed = rb.train("HSLM-A1"), []
+    for interaction in ("iterate", "rigid"):
+        settings = check(train, DECK, rb.Track(), speed=15.0, interaction=interaction)
+        needed.append(bytes_needed(train, DECK, settings))
+    assert needed[0] == needed[1] < 1e9
+    check(train, DECK, rb.Track(), speed=8.0)

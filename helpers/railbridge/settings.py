@@ -272,6 +272,8 @@ def bytes_needed(train: AnyTrain, deck: Guideway, settings: Settings, points: in
         for car in own
     }
     passes = {"iterate": s.iterations or s.max_iterations, "direct": 1, "rigid": 0}[s.interaction]
+    if isinstance(train, AxleTrain):
+        passes = 0  # whose forces no deck changes
     record = s.lead_in / advance + samples
     kept = len(runs) * 2 * wheels / len(cars) * record
     working = 60.0 * record
