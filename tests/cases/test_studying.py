@@ -191,3 +191,29 @@ def test_the_package_opens_without_the_packages_of_studies():
     program = program.replace(str(heavy), str(set(heavy)))
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert (found.stdout.strip(), found.stderr) == ("set()", "")
+
+
+def test_speeds_without_a_step_are_chosen_and_found_again(tmp_path, capsys):
+    out = tmp_path / "out"
+    words = ["envelope", "viaduct36", "--trains", "HSLM-A1", "--speeds", "150:300km/h"]
+    assert cli.main([*words, "--out", str(out)]) == 0
+    first = (out / "envelope.csv").read_bytes()
+    assert "about 121 crossings" in capsys.readouterr().out
+    with xr.open_dataset(out / "envelope.nc") as found:
+        assert found.sizes["speed"] > 121 and "0.5 %" in found.attrs["title"]
+        assert float(found.speed[0]) == pytest.approx(150 / 3.6)
+    assert cli.main([*words, "--out", str(out)]) == 0
+    assert "known already" in capsys.readouterr().out
+    assert (out / "envelope.csv").read_bytes() == first
+    assert cli.main([*words, "--out", str(tmp_path / "b"), "--measure", "wheel_unloading"]) == 2
+    assert "speeds are chosen by quantities" in capsys.readouterr().err
+    assert not (tmp_path / "b").exists()
+
+
+def test_all_ten_trains_of_the_family(tmp_path):
+    out = tmp_path / "out"
+    words = ["envelope", "viaduct36", "--trains", "HSLM-A", "--speeds", "50,60"]
+    assert cli.main([*words, "--out", str(out), "-q"]) == 0
+    rows = (out / "envelope.csv").read_text(encoding="utf-8").splitlines()
+    assert len(rows) == 21 and rows[1].startswith("HSLM-A1,50,18,")
+    assert rows[0].startswith("train,speed,x,displacement_z,acceleration_z,moment_vertical,")

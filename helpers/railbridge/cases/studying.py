@@ -168,6 +168,10 @@ def _envelope(given: argparse.Namespace) -> int:
             # About as many are chosen; which, is seen on the way.
             over = {"run.speed": np.linspace(*ends, studies.EVEN)}
             plan = sweeping.planned(source, over, trains, measure, points)
+            if plan.asked.more or not plan.asked.outputs:
+                allowed = "speeds are chosen by quantities at places, and paths are none"
+                remedy = "Give the speeds a step, or measure displacement_z and the like"
+                raise InputError("--measure", given.measure, allowed, remedy)
             return _carry_out(given, plan, "envelope", plan.deck.name, between)
         over = {"run.speed": speeds.tolist()}
         plan = sweeping.planned(source, over, trains, measure, points)
@@ -229,7 +233,8 @@ def _with_store(
     try:
         seconds = _estimate(plan, left, store, given.dry_run)
         seconds /= 1 if given.cluster else given.workers
-        said = f"{total} crossings ({varied})" + f", {known} known already" * bool(known)
+        about = "about " * (between is not None)
+        said = f"{about}{total} crossings ({varied})" + f", {known} known already" * bool(known)
         said += f"; {_bytes(plan) / 1e9:.2g} GB, about {_spoken(seconds)}"
         if given.dry_run or not given.quiet:
             tell(said)
