@@ -54,9 +54,14 @@ def blocks(folder):
 def stopped_in_the_middle(number, *more):
     """Exit code and stderr of a sweep that got a signal when some chunks were finished."""
     arguments = [sys.executable, "-m", "railbridge", *SWEEP, "o", *more]
-    with subprocess.Popen(
-        arguments, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-    ) as program:
+
+    def listen():
+        # A shell that starts the tests in the background has SIGINT ignored, and children inherit
+        # that.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+    pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "text": True}
+    with subprocess.Popen(arguments, preexec_fn=listen, **pipes) as program:
         while len(blocks("o")) < 3 and program.poll() is None:
             time.sleep(0.002)
         program.send_signal(number)
@@ -217,3 +222,13 @@ def test_all_ten_trains_of_the_family(tmp_path):
     rows = (out / "envelope.csv").read_text(encoding="utf-8").splitlines()
     assert len(rows) == 21 and rows[1].startswith("HSLM-A1,50,18,")
     assert rows[0].startswith("train,speed,x,displacement_z,acceleration_z,moment_vertical,")
+
+
+def test_a_cluster_that_does_not_answer_leaves_nothing_behind(here, capsys):
+    """A client that never connected must not be asked for locks when results are written."""
+    distributed = pytest.importorskip("distributed")
+    code, _, err = command(capsys, *SWEEP, "o", "--cluster", "nonsense")
+    assert code == 2 and "--cluster" in err
+    with pytest.raises(ValueError, match="client found"):
+        distributed.get_client()
+    assert command(capsys, *SWEEP, "o")[0] == 0

@@ -297,7 +297,8 @@ def _computed(
         from distributed import Client
 
         try:
-            client = Client(given.cluster, timeout=10)
+            # No default: one that cannot be reached would stand in the way of whatever asks for it.
+            client = Client(given.cluster, timeout=10, set_as_default=False)
         except (OSError, ValueError) as error:
             allowed = f"no scheduler answers there ({error})"
             raise InputError("--cluster", given.cluster, allowed) from None
