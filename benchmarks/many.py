@@ -69,6 +69,14 @@ def map_of_speed_and_wavelength(edge, **options):
     return rb.sweep(one_car(), axes(edge), measure=asked, **options)
 
 
+def map_of_amplitude_and_phase(edge):
+    over = {
+        "track.vertical.amplitude": np.linspace(1e-3, 5e-3, edge),
+        "track.vertical.phase": np.linspace(0.0, 6.0, edge),
+    }
+    return rb.sweep(one_car(), over, measure=("displacement_z", "acceleration_z"))
+
+
 def one_call_each_of_the_map(edge, count=40):
     case, over = one_car(), axes(edge)
     chosen = np.random.default_rng(0).integers(edge, size=(count, 2))
@@ -122,6 +130,12 @@ def main():
         f"{EDGE} x {EDGE} speeds and wavelengths, one car, 4 passes: {took:.1f} s   "
         f"{1e3 * took / EDGE**2:.1f} ms a lane   one call each {alone:.0f} s, "
         f"{alone / took:.1f} times as long"
+    )
+    took = best(map_of_amplitude_and_phase, EDGE, repeats=1)
+    one = best(one_car().run, repeats=5)
+    print(
+        f"{EDGE} x {EDGE} amplitudes and phases at one speed, mixed from five: {took:.1f} s   "
+        f"one call each {one * EDGE**2:.0f} s, {one * EDGE**2 / took:.0f} times as long"
     )
     for edge in (12, 24, 48):
         code = MEMORY.format(edge=edge, peak=PEAK, folder=Path(__file__).parent.as_posix())

@@ -6,8 +6,8 @@ import itertools
 import json
 import math
 import os
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -101,15 +101,17 @@ class Plan:
     @cached_property
     def task(self) -> Task:
         """What computes a chunk; the same for all of the study, however much of it is left."""
-        return Task(sum(bool(point.group) for point in self.points) >= SIDE_BY_SIDE)
+        lanes = sum(isinstance(point.group, float) for point in self.points)
+        return Task(lanes >= SIDE_BY_SIDE)
 
     @cached_property
     def chunk(self) -> int:
         """Points of a chunk that take about a second or two."""
         if self.task.side_by_side:
             return studies.WIDTH
-        constant = all(p.refusal or isinstance(p.task[2].train, AxleTrain) for p in self.points)
-        return 1024 if constant else studies.CHUNK
+        jobs = [point.task[2] for point in self.points if not point.refusal]
+        quick = all(job.mixed or isinstance(job.train, AxleTrain) for job in jobs)
+        return studies.CHUNK_OF_LOADS if quick else studies.CHUNK
 
     def chosen(
         self, store: Any, between: studies.Between, chunk: int | None = None, **options: Any
@@ -208,6 +210,7 @@ def planned(
     asked_by_deck: dict[int, Asked] = {}
     made_trains: dict[str, AnyTrain] = {}
     like: Case | None = None
+    mixtures: dict[Any, list[int]] = {}
     keys: dict[int, str] = {}
     kept: list[Any] = []  # so that no id is used twice
 
@@ -234,6 +237,10 @@ def planned(
         able = studies.eligible(own.deck, job, asked.outputs, bool(asked.more))
         group = studies.advance_of(own.settings) if able else ""
         found.append(Point(key, (own.deck, asked, job), group=group))
+        mixture = studies.mixture_key(job, asked.numbers, bool(asked.more))
+        if mixture is not None:
+            mixtures.setdefault((id(own.deck), mixture), []).append(len(found) - 1)
+    _mix(found, mixtures.values())
     if not asked_by_deck:
         raise InputError("over", None, found[0].refusal)
     asked = next(iter(asked_by_deck.values()))
@@ -244,6 +251,15 @@ def planned(
             raise InputError("points", None, allowed, "Name places that all decks have")
     title = " x ".join(f"{len(d.values)} {d.name}" for d in dimensions)
     return Plan(tuple(dimensions), tuple(found), asked, made_trains, like, title)
+
+
+def _mix(points: list[Point], groups: Iterable[list[int]]) -> None:
+    """Mark crossings that differ in size and phase of waves alone, where it is worth it."""
+    for number, group in enumerate(groups):
+        for i in group if len(group) >= studies.WORTH else ():
+            deck, asked, job = points[i].task
+            task = deck, asked, replace(job, mixed=True)
+            points[i] = replace(points[i], task=task, group=f"mixture {number}")
 
 
 class _Cases:

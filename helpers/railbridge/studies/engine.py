@@ -6,7 +6,7 @@ Constant loads need no train and no passes (`constant`); all others are computed
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -21,6 +21,7 @@ from ..tracks import Track
 from ..trains import AnyTrain, AxleTrain
 from .constant import constant_loads
 from .lanes import WIDTH, advance_of, eligible, run_lanes
+from .mixtures import mixture_key, run_mixtures
 from .outputs import Output, Peaks, peaks_of_run
 
 __all__ = ["NUMBERS", "Asked", "Job", "Row", "asked_of", "respond", "row_of_run"]
@@ -82,11 +83,14 @@ class Job:
     train : AnyTrain
     track : Track
     settings : Settings
+    mixed : bool
+        Whether it is made from the crossings of unit waves; see `mixtures`.
     """
 
     train: AnyTrain
     track: Track
     settings: Settings
+    mixed: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +131,12 @@ def asked_of(outputs: Sequence[Output], numbers: Sequence[str] = ()) -> Asked:
     return Asked(tuple(outputs), tuple(numbers))
 
 
-def respond(deck: Deck, jobs: Sequence[Job], asked: Asked, side_by_side: bool = False) -> list[Row]:
+def respond(
+    deck: Deck,
+    jobs: Sequence[Job],
+    asked: Asked,
+    side_by_side: bool = False,
+) -> list[Row]:
     """Compute crossings of one deck; one that fails gives a row with its message.
 
     Parameters
@@ -145,8 +154,13 @@ def respond(deck: Deck, jobs: Sequence[Job], asked: Asked, side_by_side: bool = 
     rows: list[Row | None] = [None] * len(jobs)
     constant: dict[tuple, list[int]] = {}
     lanes: dict[tuple, list[int]] = {}
+    mixtures: dict[Hashable, list[int]] = {}
     for i, job in enumerate(jobs):
         s = job.settings
+        key = mixture_key(job, asked.numbers, bool(asked.more)) if job.mixed else None
+        if key is not None:
+            mixtures.setdefault(key, []).append(i)
+            continue
         if isinstance(job.train, AxleTrain) and not asked.more:
             constant.setdefault((id(job.train), s.track_offset, s.tail), []).append(i)
         elif side_by_side and eligible(deck, job, asked.outputs, bool(asked.more)):
@@ -154,17 +168,21 @@ def respond(deck: Deck, jobs: Sequence[Job], asked: Asked, side_by_side: bool = 
             lanes.setdefault((id(job.train), advance_of(s), *passes), []).append(i)
         else:
             rows[i] = _one(deck, job, asked)
-    for own in lanes.values():
-        for first in range(0, len(own), WIDTH):
-            some = own[first : first + WIDTH]
-            try:
-                found = run_lanes(deck, [jobs[i] for i in some], asked.outputs, asked.numbers)
-            except Exception:  # one of them spoils it for all: each by itself says which
-                for i in some:
-                    rows[i] = _one(deck, jobs[i], asked)
-                continue
-            for i, values in zip(some, found, strict=True):
-                rows[i] = _checked(values, asked)
+    together = [(run_mixtures, own) for own in mixtures.values()]
+    together += [
+        (run_lanes, own[first : first + WIDTH])
+        for own in lanes.values()
+        for first in range(0, len(own), WIDTH)
+    ]
+    for run, some in together:
+        try:
+            found = run(deck, [jobs[i] for i in some], asked.outputs, asked.numbers)
+        except Exception:  # one of them spoils it for all: each by itself says which
+            for i in some:
+                rows[i] = _one(deck, jobs[i], asked)
+            continue
+        for i, values in zip(some, found, strict=True):
+            rows[i] = _checked(values, asked)
     for (_, offset, tail), own in constant.items():
         train, speeds = jobs[own[0]].train, [jobs[i].settings.speed for i in own]
         try:
