@@ -26,3 +26,12 @@ def test_texts_cannot_be_made_to_look_like_others():
 def test_what_is_not_understood_is_no_fingerprint():
     with pytest.raises(TypeError, match="no fingerprint"):
         fingerprint(object())
+
+
+def test_another_version_of_the_program_is_another_crossing(monkeypatch):
+    from railbridge.studies import fingerprints
+
+    parts = "deck", "train", "track", None
+    now = fingerprints.print_of_crossing(*parts)
+    monkeypatch.setattr(fingerprints, "_program", lambda: "99.0")
+    assert fingerprints.print_of_crossing(*parts) != now

@@ -9,6 +9,8 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -53,8 +55,19 @@ def print_of_deck(deck: Deck, asked: Asked) -> str:
 
 
 def print_of_crossing(deck: str, train: str, track: str, settings: Any) -> str:
-    """Return the fingerprint of a crossing from those of its deck, train and track."""
-    return fingerprint(deck, train, track, settings)
+    """Return the fingerprint of a crossing from those of its deck, train and track.
+
+    Another version of the program is another crossing.
+    """
+    return fingerprint(_program(), deck, train, track, settings)
+
+
+@cache
+def _program() -> str:
+    try:
+        return version("railbridge")
+    except PackageNotFoundError:
+        return ""
 
 
 _OF_PEOPLE = ("name", "recovery", "remarks", "mode_names", "tracks")
