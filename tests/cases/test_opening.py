@@ -1,5 +1,7 @@
 """Studies that are shipped: opened by name, computed again in part, and the rule read off them."""
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -155,3 +157,9 @@ def test_what_a_sweep_has_written_is_opened_again(tmp_path):
     found.to_netcdf(tmp_path / "sweep.nc")
     again = rb.open_study(tmp_path / "sweep.nc")
     assert np.array_equal(again.displacement_z, found.displacement_z)
+
+
+def test_without_the_extra_it_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(rb.InputError, match=r"xarray is missing.*railbridge\[study\]"):
+        rb.open_study("speed_wavelength")

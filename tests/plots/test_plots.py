@@ -47,7 +47,7 @@ def shell_and_modes():
 
 
 def speeds_and_waves():
-    import xarray as xr
+    xr = pytest.importorskip("xarray")
 
     values = np.array([[1.0, 2.0, 1.5], [1.0, 1.5, 4.0]])
     variables = {"acceleration_z": (("train", "speed"), values, {"units": "m/s2"})}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .. import studies
 from ..errors import InputError
 from .shelf import data_file
 
@@ -34,6 +35,7 @@ def open_study(name: str | Path) -> xr.Dataset:
     InputError
         No such study, or a file that is none.
     """
+    studies.needed("xarray", "netCDF4")
     import xarray as xr
 
     path = data_file("studies", name, ".nc")
