@@ -82,7 +82,7 @@ def test_a_cluster_gives_the_same_and_a_killed_worker_loses_nothing(client, tmp_
 
 def test_a_worker_without_the_package_is_named(client, monkeypatch):
     client.wait_for_workers(2)
-    monkeypatch.setattr("railbridge.studies.chunks._version", lambda: "99.0")
+    monkeypatch.setattr("railbridge.studies.chunks.program_version", lambda: "99.0")
     with pytest.raises(InputError, match=r"its worker tcp.*Install version 99.0"):
         list(completed(square, [[1]], client=client))
 

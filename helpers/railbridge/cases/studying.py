@@ -21,6 +21,7 @@ from ..settings import MEMORY_LIMIT
 from . import shelf, staging, sweeping
 from .ranges import values_of, written_ends, written_range
 from .speech import say, tell
+from .studytrains import trains_of_case
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -76,7 +77,8 @@ def add_commands(add: Callable[..., argparse.ArgumentParser]) -> None:
     )  # fmt: skip
     envelope.add_argument(
         "--speeds", required=True, metavar="RANGE",
-        help="first:last:step, as 150:300:25km/h, or single values; m/s without a unit",
+        help="first:last:step, as 150:300:25km/h, or single values; m/s without a unit; chosen "
+        "where there is no step, 150:300km/h",
     )  # fmt: skip
     envelope.add_argument(
         "--points", metavar="X,X", help="places along the deck, m; default mid-length"
@@ -108,7 +110,7 @@ def _beside(trains: Any, folder: Path) -> Any:
     if isinstance(trains, str):
         trains = [trains]
     if isinstance(trains, list) and not any(isinstance(t, dict) for t in trains):
-        return _named([_found(t, folder) if _is_file(t) else t for t in trains])
+        return trains_of_case([_found(t, folder) if _is_file(t) else t for t in trains])
     if isinstance(trains, dict):
         return {name: _beside_table(train, folder) for name, train in trains.items()}
     return trains
@@ -132,21 +134,6 @@ def _is_file(train: Any) -> bool:
     return isinstance(train, str) and train.endswith(".csv")
 
 
-def _named(trains: list[Any]) -> dict[str, Any]:
-    """Return tables of trains by name, files and families opened."""
-    tables: dict[str, Any] = {}
-    for train in trains:
-        many = sweeping.FAMILY if train == "HSLM-A" else [train]
-        for one in many:
-            name = Path(one).stem if _is_file(one) else one
-            if not isinstance(name, str):
-                raise InputError("trains", one, "must be a name or a file")
-            if name in tables:
-                raise InputError("trains", name, "is named twice", "Give each once")
-            tables[name] = {"file": one} if _is_file(one) else {"name": one}
-    return tables
-
-
 def _envelope(given: argparse.Namespace) -> int:
     ends = written_ends("--speeds", given.speeds, "speed")
     speeds = None if ends else written_range("--speeds", given.speeds, "speed")
@@ -156,9 +143,9 @@ def _envelope(given: argparse.Namespace) -> int:
     if given.points is not None:
         points = written_range("--points", given.points, "length")
     listed = [name.strip() for name in given.trains.split(",") if name.strip()]
-    trains = _named([_found(t, Path()) if _is_file(t) else t for t in listed])
-    if not trains:
+    if not listed:
         raise InputError("--trains", given.trains, "must name at least one train")
+    trains = trains_of_case([_found(t, Path()) if _is_file(t) else t for t in listed])
     measure = [name.strip() for name in given.measure.split(",")]
     first = next(iter(trains.values()))
     source = _case_of(given.deck, first, float(ends[0] if ends else speeds[0]))
@@ -305,9 +292,9 @@ def _computed(
     try:
         with _progress(given.quiet) as progress:
             options = {"chunk": given.chunk, "workers": given.workers, "client": client}
-            carry_out = plan.chosen if between else plan.carried_out
-            given_speeds = {"between": between} if between else {}
-            return carry_out(store, progress=progress, **given_speeds, **options)
+            if between:
+                return plan.chosen(store, between, progress=progress, **options)
+            return plan.carried_out(store, progress=progress, **options)
     finally:
         if client is not None:
             client.close()

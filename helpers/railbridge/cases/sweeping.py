@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import errors, studies
-from ..codes import HSLM_A
 from ..decks import Deck
 from ..errors import InputError
 from ..results import Crossing
@@ -26,6 +25,7 @@ from .axletrains import train as load_train
 from .definition import Case, case
 from .objects import deck as load_deck
 from .ranges import values_of
+from .studytrains import by_name, train_changes, trains_of_case
 from .summary import summarize
 
 if TYPE_CHECKING:
@@ -36,8 +36,6 @@ __all__ = ["Plan", "planned", "speed_envelope", "sweep"]
 STORE = "points.zarr"
 """What a study keeps its finished points in, inside its folder."""
 MEASURE = ("displacement_z", "acceleration_z")
-FAMILY = [f"HSLM-{name}" for name in HSLM_A]
-"""What HSLM-A means: all ten."""
 SIDE_BY_SIDE = 128
 """Crossings of cars from which on they are computed side by side."""
 
@@ -203,7 +201,7 @@ def planned(
     if total > 1_000_000:
         allowed = f"{total} crossings, at most a million in one study"
         raise InputError("over", None, allowed, "Use fewer values, or several studies")
-    ways = [_way(base, table) for table in named.values()] or [{}]
+    ways = [train_changes(base, table) for table in named.values()] or [{}]
     cases = _Cases(base, ways, by_path)
     cases.check_each()
     found: list[Point] = []
@@ -300,27 +298,7 @@ class _Cases:
                 self.base.replace(way)
         for path, values in self.by_path.items():
             for value in values:
-                try:
-                    self.base.replace({path: value})
-                except InputError as error:
-                    if error.field == path or len(values) == 1 or path not in str(error):
-                        raise
-
-
-def _way(base: Case, table: dict[str, Any]) -> dict[str, Any]:
-    """Return the changes that put another train in a case.
-
-    Bare axle loads have no cars to condense and nothing to iterate: what the case says of that is
-    left out for them.
-    """
-    bare = {"name", "file", "axles", "loads"} & table.keys()
-    own = {"train": table}
-    track = base.get("train.track")
-    if track is not None and "track" not in table:
-        own["train"] = {**table, "track": track}
-    if bare:
-        own |= {f"run.{key}": None for key in ("loads", "iterations", "relaxation")}
-    return own
+                self.base.replace({path: value})
 
 
 def _dimension(
@@ -334,42 +312,6 @@ def _dimension(
     known = {"speed": "m/s", "wavelength": "m", "amplitude": "m", "mass": "kg/m", "length": "m"}
     plain = alone and last not in taken
     return Dimension(last if plain else path, values, known.get(last, ""), path)
-
-
-def trains_of_case(trains: Any) -> dict[str, dict[str, Any]]:
-    """Return tables of trains by name, as a case has them under ``train``."""
-    if trains is None:
-        return {}
-    if isinstance(trains, Mapping):
-        given = dict(trains)
-    else:
-        given = {}
-        single = isinstance(trains, (str, AxleTrain))
-        if not single and not isinstance(trains, (list, tuple)):
-            allowed = "must be names of trains, files, tables, or AxleTrains"
-            raise InputError("trains", trains, allowed)
-        for i, train in enumerate([trains] if single else trains, 1):
-            for one in FAMILY if isinstance(train, str) and train == "HSLM-A" else [train]:
-                name = one if isinstance(one, str) else getattr(one, "name", None) or f"train {i}"
-                name = Path(name).stem if name.endswith(".csv") else name
-                if name in given:
-                    raise InputError("trains", name, "is named twice", "Give each once")
-                given[name] = one
-    if not given:
-        raise InputError("trains", trains, "must name at least one train")
-    return {name: _table_of(name, train) for name, train in given.items()}
-
-
-def _table_of(name: str, train: Any) -> dict[str, Any]:
-    """Return a train as a case has it."""
-    if isinstance(train, str):
-        return {"file" if train.endswith(".csv") else "name": train}
-    if isinstance(train, AxleTrain):
-        return {"axles": list(train.axles), "loads": list(train.loads)}
-    if isinstance(train, Mapping):
-        return dict(train)
-    allowed = "must be a name, a .csv file, a table as in a case, or an AxleTrain"
-    raise InputError(f"trains[{name}]", train, allowed)
 
 
 def _sorted_measures(measure: Sequence[str]) -> tuple[list[str], list[str], list[str]]:
@@ -476,17 +418,8 @@ def speed_envelope(
     all ten.
     """
     made = deck if isinstance(deck, Deck) else load_deck(deck)
-    if isinstance(trains, str):
-        trains = [trains]
-    if isinstance(trains, (list, tuple)):
-        opened: dict[str, Any] = {}
-        for i, one in enumerate(trains, 1):
-            names = FAMILY if isinstance(one, str) and one == "HSLM-A" else [one]
-            for each in names:
-                train = load_train(each) if isinstance(each, str) else each
-                name = getattr(train, "name", None) or f"train {i}"
-                if name in opened:
-                    raise InputError("trains", name, "is named twice", "Give {name: train, ...}")
-                opened[name] = train
-        trains = opened
+    trains = {
+        name: load_train(train) if isinstance(train, str) else train
+        for name, train in by_name(trains).items()
+    }
     return studies.speed_envelope(made, trains, speeds, *arguments, **options)

@@ -18,7 +18,7 @@ from itertools import islice
 from typing import Any
 
 from ..errors import InputError
-from .extras import needed
+from .extras import needed, program_version
 
 __all__ = ["AHEAD", "WorkerDiedError", "completed", "split"]
 
@@ -144,13 +144,6 @@ def _begin() -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
-def _version() -> str:
-    try:
-        return version("railbridge")
-    except PackageNotFoundError:
-        return "none"
-
-
 def _on_cluster(task: Callable, chunks: Sequence[Any], client: Any) -> Iterator[tuple[int, Any]]:
     needed("distributed")
     from distributed import as_completed
@@ -160,7 +153,7 @@ def _on_cluster(task: Callable, chunks: Sequence[Any], client: Any) -> Iterator[
     if not info:
         remedy = "Start workers, or give client.wait_for_workers(1) time"
         raise InputError("client", str(client), "the cluster has no workers", remedy)
-    here = _version()
+    here = program_version()
     for name, found in client.run(version, "railbridge", on_error="return").items():
         if found != here and not (here == "none" and isinstance(found, PackageNotFoundError)):
             has = "does not have railbridge" if isinstance(found, Exception) else f"has {found}"

@@ -34,12 +34,13 @@ from ..settings import highest_frequency
 from ..trains import AnyTrain
 from .outputs import Output, Peaks
 
-__all__ = ["LARGEST_TURN", "constant_loads", "place_step"]
+__all__ = ["LARGEST_TURN", "NEARLY_CRITICAL", "constant_loads", "place_step"]
 
 LARGEST_TURN = 0.4
 """Angle, rad, by which the highest mode turns in one step; peaks are then met to 1e-4."""
 _PER_DECK, _PER_HALF_WAVE = 250, 25
-_NEARLY_CRITICAL = 0.9999
+NEARLY_CRITICAL = 0.9999
+"""Damping ratio from which on a mode is no longer taken as one that swings."""
 _JUST = 1e-9
 """How far from an axle the two sides of a jump are taken, share of the deck."""
 
@@ -254,7 +255,7 @@ def _modes(
 ) -> tuple[np.ndarray | None, ...]:
     """Return coordinates, velocities and accelerations of all modes, None where not wanted."""
     omega, ratio = 2 * np.pi * deck.frequencies_hz, deck.damping_ratios
-    swings = (omega > 0.0) & (ratio < _NEARLY_CRITICAL)
+    swings = (omega > 0.0) & (ratio < NEARLY_CRITICAL)
     found = {key: np.empty_like(force) if wanted[key] else None for key in "qva"}
     safe = np.where(swings, omega, 1.0), np.where(swings, ratio, 0.0)
     pole = safe[0] * (-safe[1] + 1j * np.sqrt(1.0 - safe[1] ** 2))

@@ -1,12 +1,13 @@
-"""Packages of the extra `study`: asked for where they are first needed, missed in words."""
+"""Packages of the extra `study`, missed in words where they are first needed; our own version."""
 
 from __future__ import annotations
 
 from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
 
 from ..errors import InputError
 
-__all__ = ["needed"]
+__all__ = ["needed", "program_version"]
 
 
 def needed(*names: str) -> None:
@@ -23,3 +24,11 @@ def needed(*names: str) -> None:
         except ImportError:
             remedy = 'Run: pip install "railbridge[study]"'
             raise InputError("study", None, f"the package {name} is missing", remedy) from None
+
+
+def program_version() -> str:
+    """Return the installed version of the package, "none" where it only lies in a folder."""
+    try:
+        return version("railbridge")
+    except PackageNotFoundError:
+        return "none"

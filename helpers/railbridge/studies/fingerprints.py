@@ -10,10 +10,11 @@ import hashlib
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from .extras import program_version
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -62,13 +63,7 @@ def print_of_crossing(deck: str, train: str, track: str, settings: Any) -> str:
     return fingerprint(_program(), deck, train, track, settings)
 
 
-@cache
-def _program() -> str:
-    try:
-        return version("railbridge")
-    except PackageNotFoundError:
-        return ""
-
+_program = cache(program_version)
 
 _OF_PEOPLE = ("name", "recovery", "remarks", "mode_names", "tracks")
 

@@ -30,17 +30,20 @@ from ..spectra import amplitude_spectrum, deviation_percent
 from ..statics import static_extremes
 from ..tracks import Harmonic, Level, Track
 from ..trains import AnyTrain, Train
+from .constant import NEARLY_CRITICAL
 from .lanecars import LaneCar, parts_of
 from .outputs import Output
 from .railwaves import RailWaves
 
-__all__ = ["KNOWN", "WIDTH", "advance_of", "eligible", "run_lanes"]
+__all__ = [
+    "KNOWN", "WIDTH", "Job", "advance_of", "eligible", "has_given_passes", "run_lanes", "waves_of",
+]  # fmt: skip
 
 WIDTH = 512
 """Lanes that are run together at most."""
 _FILLED = 64
 """Their number is filled up to a multiple of this: the last bit of a product may depend on it."""
-_NEARLY_CRITICAL = 0.9999
+_SIDES = ("left", "right")
 KNOWN = ("wheel_unloading", "wheel_force_z", "deviation_from_rigid", "iterations")
 """Numbers of a crossing that lanes can tell."""
 _JUMP = ("torsion", "shear_vertical", "shear_lateral")
@@ -63,6 +66,21 @@ class Job(Protocol):
     settings: Settings
 
 
+def has_given_passes(settings: Settings) -> bool:
+    """Whether a crossing is linear in the irregularity: passes whose number hangs on nothing."""
+    s = settings
+    return s.interaction == "rigid" or (
+        s.interaction == "iterate" and s.iterations is not None and s.relaxation is None
+    )
+
+
+def waves_of(track: Track) -> dict[tuple[str, str], Harmonic | Level] | None:
+    """Return the rails by direction and side where each is a wave or level, None otherwise."""
+    rails = {(d, side): track.rail(d, side) for d in ("vertical", "lateral") for side in _SIDES}
+    waves = all(isinstance(rail, (Harmonic, Level)) for rail in rails.values())
+    return rails if waves else None
+
+
 def eligible(deck: Deck, job: Job, outputs: Sequence[Output], more: bool) -> bool:
     """Whether a crossing can be a lane: waves, wheel loads, and a given number of passes.
 
@@ -80,18 +98,14 @@ def eligible(deck: Deck, job: Job, outputs: Sequence[Output], more: bool) -> boo
         return False
     if s.loads != "wheels" or s.excitation != "wheels" or s.feedback != "all":
         return False
-    passes = s.interaction == "rigid" or (
-        s.interaction == "iterate" and s.iterations is not None and s.relaxation is None
-    )
-    if not passes or any(output.quantity in _JUMP for output in outputs):
+    if not has_given_passes(s) or any(output.quantity in _JUMP for output in outputs):
         return False
-    rails = [job.track.rail(d, side) for d in ("lateral", "vertical") for side in ("left", "right")]
-    if not all(isinstance(rail, (Harmonic, Level)) for rail in rails):
+    if waves_of(job.track) is None:
         return False
     systems = [vehicle.system.modal for vehicle, _ in job.train.kinds()]
     # Without dampers a wave may meet a mode exactly, which has no steady state.
     cars = all(modal is not None and np.all(modal[0].real < 0.0) for modal in systems)
-    return cars and bool(np.all(deck.damping_ratios < _NEARLY_CRITICAL))
+    return cars and bool(np.all(deck.damping_ratios < NEARLY_CRITICAL))
 
 
 def run_lanes(

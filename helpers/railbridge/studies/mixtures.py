@@ -22,16 +22,15 @@ from ..crossing import compute
 from ..decks import Deck
 from ..results import Crossing
 from ..spectra import amplitude_spectrum, deviation_percent
-from ..tracks import Harmonic, Level, Rails, Track
+from ..tracks import Harmonic, Rails, Track
 from ..trains import Train
-from .lanes import KNOWN, Job
+from .lanes import KNOWN, Job, has_given_passes, waves_of
 from .outputs import Output
 
 __all__ = ["WORTH", "mixture_key", "run_mixtures"]
 
 WORTH = 12
 """Crossings from which on nine or fewer are computed instead."""
-_WAYS = [(d, side) for d in ("vertical", "lateral") for side in ("left", "right")]
 _TOGETHER = 2**25
 """Numbers of mixed histories at once."""
 
@@ -47,16 +46,14 @@ def mixture_key(job: Job, numbers: Sequence[str], more: bool) -> Hashable | None
     more : bool
         Whether a whole run is needed to answer.
     """
-    s = job.settings
-    linear = s.interaction == "rigid" or (
-        s.interaction == "iterate" and s.iterations is not None and s.relaxation is None
+    s, rails = job.settings, waves_of(job.track)
+    if not isinstance(job.train, Train) or more or not set(numbers) <= set(KNOWN):
+        return None
+    if not has_given_passes(s) or rails is None:
+        return None
+    waves = tuple(
+        rail.wavelength if isinstance(rail, Harmonic) else None for rail in rails.values()
     )
-    if not isinstance(job.train, Train) or not linear or more or not set(numbers) <= set(KNOWN):
-        return None
-    rails = [job.track.rail(*way) for way in _WAYS]
-    if not all(isinstance(rail, (Harmonic, Level)) for rail in rails):
-        return None
-    waves = tuple(rail.wavelength if isinstance(rail, Harmonic) else None for rail in rails)
     return None if not any(waves) else (id(job.train), s, waves)
 
 
@@ -99,11 +96,11 @@ def _basis(tracks: Sequence[Track]) -> tuple[list[Track], np.ndarray]:
 
     Shares have the shape (tracks, basis), those of the level one included.
     """
-    rails = {way: [track.rail(*way) for track in tracks] for way in _WAYS}
+    each = [waves_of(track) for track in tracks]
+    rails = {way: [own[way] for own in each] for way in each[0]}
     both = {d: rails[d, "left"] == rails[d, "right"] for d in ("vertical", "lateral")}
     basis, shares = [Track()], []
-    for direction, side in _WAYS:
-        own = rails[direction, side]
+    for (direction, side), own in rails.items():
         if not isinstance(own[0], Harmonic) or (both[direction] and side == "right"):
             continue
         size = max(rail.amplitude for rail in own) or 1.0
