@@ -280,6 +280,7 @@ def test_an_iteration_that_overflows_has_not_converged():
             lead_in=0.0,
             tail=0.0,
             max_iterations=300,
+            relaxation=1.0,
         )
     assert not caught.value.run.converged and not np.isfinite(caught.value.run.changes[-1])
     assert caught.value.run.iterations < 300

@@ -285,7 +285,8 @@ def light(mass):
 def test_no_silent_non_convergence():
     train = rb.Train(rb.planar_car(CAR), cars=4)
     with pytest.raises(rb.NotConvergedError, match="max_iterations.*relaxation") as error:
-        rb.cross(train, light(2e3), WAVES, speed=20.0, time_step=2e-3, max_iterations=6)
+        options = {"time_step": 2e-3, "max_iterations": 6, "relaxation": 1.0}
+        rb.cross(train, light(2e3), WAVES, speed=20.0, **options)
     run = error.value.run
     assert run.converged is False and len(run.changes) == run.iterations == 6
     assert (
@@ -310,6 +311,7 @@ def test_a_diverging_iteration_stops_with_an_error_not_with_numbers():
                 speed=60.0,
                 time_step=2e-3,
                 max_iterations=40,
+                relaxation=1.0,
             )
 
 

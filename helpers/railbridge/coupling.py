@@ -37,12 +37,15 @@ __all__ = [
     "DeckState",
     "FixedPoint",
     "ForcesAdded",
+    "grows",
     "iterate",
     "left",
     "prepare",
     "settled",
 ]
 
+_ROUND_OFF = 1e-10
+"""Change that is no longer asked whether it grows."""
 ForcesAdded = list[np.ndarray]
 """What the deck's motion adds to each car's wheel forces while it is on the deck, N.
 
@@ -127,6 +130,8 @@ class Coupling:
         m behind the first axle.
     modes : SampledModes or None
         The deck's.
+    more : tuple of ndarray, or None
+        What Hertzian contacts carry more than their tangents; see `AnyTrain.rigid_forces`.
     """
 
     __repr__ = brief
@@ -140,6 +145,7 @@ class Coupling:
     loads: Stations
     load_delays: np.ndarray
     modes: SampledModes | None
+    more: tuple[np.ndarray, ...] | None = None
 
     def nothing_added(self) -> ForcesAdded:
         """Return the first guess: the deck adds nothing. To be read only."""
@@ -417,7 +423,8 @@ class FixedPoint:
 def iterate(coupling: Coupling, progress: Callable[[str], None] | None = None) -> FixedPoint:
     """Repeat the steps until what the tolerance speaks of has settled, see `settled`.
 
-    Or for a given number of passes.
+    Or for a given number of passes. Where the changes grow and neither passes nor relaxation are
+    given it ends early: `windows` does better.
     """
     s = coupling.settings
     passes, changes = [coupling.nothing_added()], []
@@ -446,6 +453,8 @@ def iterate(coupling: Coupling, progress: Callable[[str], None] | None = None) -
             progress(f"iteration {len(changes)}: change {changes[-1]:.1e}")
         if not np.isfinite(changes[-1]) or (s.iterations is None and settled(changes, s)):
             break
+        if s.iterations is None and s.relaxation is None and grows(changes):
+            break
     return FixedPoint(tuple(passes), tuple(changes), settled(changes, s), states)
 
 
@@ -459,6 +468,11 @@ def settled(changes: Sequence[float], settings: Settings) -> bool:
     if settings.tolerance_of == "displacement":
         return max(changes[-1], left(changes)) < settings.tolerance
     return len(changes) > 1 and max(changes[-2:]) < settings.tolerance
+
+
+def grows(changes: Sequence[float]) -> bool:
+    """Return whether changes have grown twice in a row, and not as round-off does."""
+    return len(changes) > 2 and changes[-1] > changes[-2] > changes[-3] > _ROUND_OFF
 
 
 def left(changes: Sequence[float]) -> float:

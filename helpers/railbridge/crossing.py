@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import fields
 from typing import get_type_hints
 
-from .coupling import iterate, prepare
+from .coupling import Coupling, grows, iterate, prepare
 from .decks import Deck
 from .direct import solve_directly
 from .errors import Remark
@@ -17,6 +17,7 @@ from .results import Crossing
 from .settings import Options, Settings, check
 from .tracks import Track
 from .trains import AnyTrain
+from .windows import in_windows
 
 __all__ = ["NotConvergedError", "compute", "cross", "warn_of"]
 
@@ -34,14 +35,8 @@ class NotConvergedError(RuntimeError):
 
     def __init__(self, run: Crossing, path: str = "") -> None:
         s = run.settings
-        remedies = [f"{path}relaxation = 0.5 or 'aitken'", f"more {path}max_iterations"]
-        direct = f"{path}interaction = 'direct'"
-        if s.loads == "wheels":
-            # It always ends, where wheels on stiff contacts may take hundreds of passes.
-            with_all = "" if s.feedback == "all" else f" with {path}feedback = 'all'"
-            remedies.insert(0, direct + with_all)
-        else:
-            remedies.append(f"{path}loads = 'wheels' with {direct}")
+        direct, own = f"{path}interaction = 'direct'", f"{path}relaxation = 0.5 or 'aitken'"
+        remedies = [direct, own, f"more {path}max_iterations"]
         found = f"the last change was {run.changes[-1]:.2g} and"
         needed = f"must be below {path}tolerance = {s.tolerance:g} twice in a row"
         if s.tolerance_of == "displacement":
@@ -156,9 +151,15 @@ def compute(
     if settings.interaction == "rigid":
         return Crossing(train, deck, track, settings, (start,), (), None, 0, coupling)
     if settings.interaction == "direct":
-        passes = start, solve_directly(coupling, progress)
-        return Crossing(train, deck, track, settings, passes, (), None, 1, coupling)
+        found = solve_directly(coupling, track, progress)
+        passes = start, found.added
+        return Crossing(
+            train, deck, track, settings, passes, (), None, 1, found.coupling, {1: found.state}
+        )
     found = iterate(coupling, progress)
+    given = settings.iterations is not None or settings.relaxation is not None
+    if not (found.converged or given) and grows(found.changes):
+        return _in_windows(train, deck, track, settings, coupling, progress)
     run = Crossing(
         train, deck, track, settings, found.passes, found.changes, found.converged,
         len(found.changes), coupling, found.states,
@@ -166,3 +167,20 @@ def compute(
     if settings.iterations is None and not found.converged:
         raise NotConvergedError(run)
     return run
+
+
+def _in_windows(
+    train: AnyTrain,
+    deck: Deck,
+    track: Track,
+    settings: Settings,
+    coupling: Coupling,
+    progress: Callable[[str], None] | None,
+) -> Crossing:
+    """Compute a crossing whose passes over the whole record grow."""
+    found = in_windows(coupling, progress)
+    passes = coupling.nothing_added(), coupling.train_pass(found.state)
+    changes = (float(found.changes.max()),)
+    return Crossing(
+        train, deck, track, settings, passes, changes, True, 1, coupling, {1: found.state}, found
+    )

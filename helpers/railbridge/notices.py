@@ -29,7 +29,8 @@ def remarks(run: Crossing) -> tuple[Remark, ...]:
     found += _transient(run)
     found += _coarse(run)
     found += _not_settled(run)
-    found += _pulling(run)
+    found += _solved_otherwise(run)
+    found += _parted(run) if run.settings.contact == "hertz" else _pulling(run)
     found += _lifting(run)
     found += _moving_ends(run)
     return tuple(found)
@@ -109,6 +110,49 @@ def _not_settled(run: Crossing) -> list[Remark]:
     if least < len(run.changes) - 1:
         text += f", pass {least + 1} by {run.changes[least]:.2g}: they diverge"
     return [ResultWarning("iterations", text + ". These numbers are not a solution.")]
+
+
+def _solved_otherwise(run: Crossing) -> list[Remark]:
+    """Say where another way was taken than the fixed point over the whole record."""
+    if run.windows is not None:
+        passes = run.windows.passes
+        text = "The changes of the passes grew over the whole record, so it was cut into "
+        text += f"{len(passes)} windows in time"
+        stepped = int(np.sum(passes == 1))
+        if stepped < len(passes):
+            text += f"; {len(passes) - stepped} settled, in {passes.max()} passes at most"
+        if stepped:
+            text += f"; in {stepped} train and deck were solved together at every sample"
+        text += "."
+        return [Remark("", text)]
+    if not run.settings.auto or run.settings.interaction != "direct":
+        return []
+    highest = max(vehicle.highest_frequency for vehicle, _ in run.train.kinds())
+    text = f"= auto: solved directly, since wheels stand on stiff contacts ({highest:.3g} Hz)."
+    return [Remark("interaction", text)]
+
+
+def _parted(run: Crossing) -> list[Remark]:
+    """Name the wheel that is off the rail for the longest time."""
+    off = run.parted
+    if not off.any():
+        return []
+    longest = (0, 0, 0)
+    for i in np.flatnonzero(off.any(axis=1)):
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], off[i], [False]]).astype(int)))
+        for start, stop in edges.reshape(-1, 2).tolist():
+            longest = max(longest, (stop - start, i, start))
+    samples, i, k = longest
+    wheel, t = run.train.wheels[i], run.time[k]
+    others = int(off.any(axis=1).sum()) - 1
+    text = (
+        f"Wheel {wheel.number} of car {wheel.car} leaves the rail for "
+        f"{1e3 * samples * run.settings.time_step:.3g} ms at t = {t:.4g} s, "
+        f"{_place(run.settings.speed * t - wheel.delay, run.deck.length)}"
+        + f"; {others} other wheel{'s' * (others > 1)} too, not longer" * bool(others)
+        + "."
+    )
+    return [ResultWarning("", text)]
 
 
 def _pulling(run: Crossing) -> list[Remark]:

@@ -27,6 +27,7 @@ from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .statics import MovingLoads, static_extremes
 from .tracks import Track
 from .trains import CONDENSED, AnyTrain
+from .windows import Windows
 
 __all__ = ["ENVELOPE", "Crossing", "Deviations", "Envelope"]
 
@@ -122,6 +123,9 @@ class Crossing:
         What all iterations share.
     states : dict of DeckState
         The deck's state by iteration, as far as it is known; shared by what `at` returns.
+    windows : Windows or None
+        The windows in time in which the fixed point was found, where passes over the whole record
+        grew; iteration 1 is then the fixed point.
     """
 
     __repr__ = brief
@@ -136,6 +140,7 @@ class Crossing:
     iteration: int
     coupling: Coupling = field(repr=False)
     states: dict[int, DeckState] = field(default_factory=dict, repr=False)
+    windows: Windows | None = None
 
     # ---- the iteration
 
@@ -214,10 +219,10 @@ class Crossing:
     def _felt(self) -> DeckState:
         """The deck's motion that the forces shown answer to.
 
-        That of the pass before, or, solved directly, their own.
+        That of the pass before, or, solved directly or in windows, their own.
         """
-        direct = self.settings.interaction == "direct"
-        return self.state if direct else self.at(self.iteration - 1).state
+        own = self.settings.interaction == "direct" or self.windows is not None
+        return self.state if own else self.at(self.iteration - 1).state
 
     def wheel_force(self, car: int = 1, wheel: int = 1) -> History:
         """Return lateral and vertical force of one wheel on the deck, N, static part included.
@@ -243,6 +248,15 @@ class Crossing:
         return 1.0 + self.wheel_forces[:, 1] / static[:, None]
 
     @cached_property
+    def parted(self) -> np.ndarray:
+        """Whether every wheel is off the rail, shape (wheels, n): only Hertzian contacts can be.
+
+        The force of such a wheel is nothing, to the last digits of what springs and mass carry.
+        """
+        static = np.array([[wheel.static_load] for wheel in self.train.wheels])
+        return frozen(self.wheel_forces[:, 1] > -1e-6 * static)
+
+    @cached_property
     def on_deck(self) -> np.ndarray:
         """Whether every wheel is on the deck, shape (wheels, n)."""
         axles, result = self.coupling.axles, []
@@ -264,7 +278,9 @@ class Crossing:
         """
         if not self.train.kinds():
             return frozen(np.zeros((0, 3, 2, len(self.time))))
-        rigid = self.train.rigid_accelerations(self.track, self.settings.passage)
+        rigid = self.train.rigid_accelerations(
+            self.track, self.settings.passage, self.coupling.more
+        )
         if self.iteration > 0:
             added = self.coupling.body_accelerations(self._felt)
             rigid = [r + a for r, a in zip(rigid, added, strict=True)]
@@ -287,7 +303,8 @@ class Crossing:
         own = self.train.car(car)
         if own.vehicle is None:
             raise InputError("car", car, "bare axle loads have no bodies that move")
-        motion = self.train.rigid_motion(self.track, self.settings.passage)[car - 1]
+        passage, more = self.settings.passage, self.coupling.more
+        motion = self.train.rigid_motion(self.track, passage, more)[car - 1]
         if self.iteration > 0:
             motion = motion + self.coupling.motion(self._felt, self.coupling.cars[car - 1])
         values = dict(zip(own.vehicle.labels, motion[:, 0], strict=True))

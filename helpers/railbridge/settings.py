@@ -31,6 +31,10 @@ HEAVY = 0.2
 """Damping ratio from which on a mode follows its load more than it rings."""
 FINEST_STEP = 1e-4
 """s, that the deck's modes ask for."""
+STIFF_CONTACT = 60.0
+"""Hz; a vehicle that swings faster has wheels on stiff contacts."""
+SOFTEST_CONTACT = 1e8
+"""N/m; what carries a wheel on a rail is stiffer, a suspension is ten times softer."""
 STATIONS = 41
 """Places along the deck where envelopes are taken, ends included."""
 MEMORY_LIMIT = 2e9
@@ -50,10 +54,12 @@ class Options:
     loads : {"wheels", "bogies", "condensed"}
         How the wheel forces act on the deck: as they are, as one force per bogie, or one per car
         (the paper).
-    interaction : {"iterate", "rigid", "direct"}
+    interaction : {"auto", "iterate", "rigid", "direct"}
         The fixed point; the deck under the forces of a rigid deck (iteration 0); or train and deck
-        solved together at every step (wheel loads only; the limit of the fixed point, without
-        iterating, more slowly).
+        solved together at every step: the limit of the fixed point, without iterating. "auto" takes
+        the direct solution where wheels stand on stiff contacts, which the fixed point meets slowly
+        or not at all; and the fixed point elsewhere, or where `iterations` or `relaxation` are
+        given.
     track_offset : float or str
         Track centre line, m left of the deck axis, or the name of a track of the deck.
     time_step : float, optional
@@ -81,6 +87,10 @@ class Options:
     relaxation : float or "aitken", optional
         Share of each correction that is applied, or Aitken's adaptive share; for light decks and
         fast trains.
+    contact : {"permanent", "hertz"}
+        Wheels and rails hold together, by springs; or wheels with mass press on the rails as
+        Hertz's theory has it, by a force that grows with the power 3/2 of the depth and is nothing
+        where they part. The springs of the contacts are its tangents at the static loads.
     excitation : {"wheels", "car"}
         Every wheel meets the track at its own place, or all wheels of a car in phase (a guess at
         the paper's reading).
@@ -93,7 +103,7 @@ class Options:
 
     speed: Annotated[float, Range(above=0.0, most=200.0, unit="m/s", remedy=_IN_METRES)]
     loads: Literal["wheels", "bogies", "condensed"] = "wheels"
-    interaction: Literal["iterate", "rigid", "direct"] = "iterate"
+    interaction: Literal["auto", "iterate", "rigid", "direct"] = "auto"
     track_offset: float | str = 0.0
     time_step: Annotated[float, Range(above=0.0, unit="s")] | None = None
     lead_in: (
@@ -113,17 +123,15 @@ class Options:
         | Literal["aitken"]
         | None
     ) = None
+    contact: Literal["permanent", "hertz"] = "permanent"
     excitation: Literal["wheels", "car"] = "wheels"
     feedback: Literal["all", "vertical"] = "all"
 
     def __post_init__(self) -> None:
         check_fields(self)
-        for name, needed in [("loads", "wheels"), ("feedback", "all")]:
-            value = getattr(self, name)
-            if self.interaction == "direct" and value != needed:
-                allowed = "the direct solution couples true wheels and the whole motion, "
-                allowed += f"so it must be '{needed}'"
-                raise InputError(name, value, allowed, "Or use interaction = 'iterate'")
+        if self.contact == "hertz" and self.interaction not in ("auto", "direct"):
+            allowed = "cannot find contacts that are not linear"
+            raise InputError("interaction", self.interaction, allowed, "Use 'direct' or 'auto'")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,11 +142,14 @@ class Settings(Options):
     ----------
     samples : int
         Samples from t = 0, when the first axle enters, to the end of the tail.
+    auto : bool
+        Whether the interaction was chosen, not given.
     """
 
     __repr__ = brief
 
     samples: int
+    auto: bool = False
 
     @property
     def passage(self) -> Passage:
@@ -172,9 +183,20 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
         train.formation[0].condensation(asked.loads)  # which may refuse
     if asked.excitation == "car":
         _ = [vehicle.front for vehicle, _ in train.kinds()]  # which each of them must have
+    if asked.contact == "hertz":
+        _refuse_other_contacts(train)
+    if asked.loads == "condensed" and asked.interaction != "rigid" and _stiff(train):
+        allowed = (
+            "with wheels on stiff contacts feeds energy into the deck, since a wheel loads it "
+        )
+        allowed += "elsewhere than where it feels it"
+        remedy = "Use 'wheels' or 'bogies', or interaction = 'rigid'"
+        raise InputError("loads", asked.loads, allowed, remedy)
     step = _time_step(train, deck, track, asked)
     advance = asked.speed * step
     chosen = {
+        "interaction": _interaction(train, asked),
+        "auto": asked.interaction == "auto",
         "time_step": step,
         "lead_in": _lead_in(asked, step),
         "track_offset": _track_offset(train, deck, asked.track_offset),
@@ -183,6 +205,47 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
     settings = Settings(**(vars(asked) | chosen))
     _refuse_size(train, deck, track, asked, settings)
     return settings
+
+
+def _interaction(train: AnyTrain, asked: Options) -> str:
+    """Return how train and deck are brought together where that is left open."""
+    if asked.interaction != "auto":
+        return asked.interaction
+    if asked.contact == "hertz":
+        return "direct"
+    of_passes = asked.iterations is not None or asked.relaxation is not None
+    if of_passes or asked.tolerance_of != "forces":
+        return "iterate"
+    return "direct" if _stiff(train) else "iterate"
+
+
+def _stiff(train: AnyTrain) -> bool:
+    """Whether wheels stand on stiff contacts."""
+    return any(vehicle.highest_frequency > STIFF_CONTACT for vehicle, _ in train.kinds())
+
+
+def _refuse_other_contacts(train: AnyTrain) -> None:
+    """Refuse Hertzian contacts where wheels have no mass, carry nothing, or stand on dampers."""
+    if not train.kinds():
+        allowed = "bare axle loads have no contacts"
+        raise InputError("contact", "hertz", allowed, "Leave contact out, or use vehicles")
+    remedy = "Give the vehicle wheelsets (wheelset_mass, or [[wheelset]]), or leave contact out"
+    for vehicle, _ in train.kinds():
+        soft = vehicle.contact_stiffness[:, 1] < SOFTEST_CONTACT
+        if soft.any():
+            found = vehicle.contact_stiffness[:, 1].min()
+            allowed = f"of {vehicle.name} the contacts are springs of {found:.3g} N/m, the "
+            allowed += f"suspension; wheel on rail has {SOFTEST_CONTACT:g} N/m or more"
+            raise InputError("contact", "hertz", allowed, remedy)
+        if vehicle.contact_damping[:, 1].any():
+            allowed = f"{vehicle.name} has dampers in its contacts, Hertz's law has none"
+            raise InputError("contact", "hertz", allowed, "Take them out, or leave contact out")
+        for wheel in vehicle.contacts:
+            if wheel.static_load <= 0.0:
+                allowed = (
+                    f"of {vehicle.name} the wheel at x = {wheel.x:g} m carries nothing at rest"
+                )
+                raise InputError("contact", "hertz", allowed, "Take the wheel out")
 
 
 def _track_offset(train: AnyTrain, deck: Guideway, given: float | str) -> float:

@@ -26,7 +26,7 @@ from .vehicles import Vehicle, WheelResponse
 
 __all__ = [
     "CONDENSED", "EXCITATIONS", "LOADS", "AnyTrain", "AxleTrain", "Car", "Condensation", "Passage",
-    "PlacedAxle", "Train", "Wheel", "steady_forces", "steady_motion",
+    "PlacedAxle", "Train", "Wheel", "rail_input", "steady_forces", "steady_motion",
 ]  # fmt: skip
 
 CONDENSED = ("force_y", "force_z", "moment_x", "moment_y", "moment_z")
@@ -236,6 +236,12 @@ class Passage:
         """Travel in one time step, m."""
         return self.speed * self.time_step
 
+    def entry(self, car: Car) -> tuple[int, float]:
+        """Return the sample at or before which a car's front axle enters, and the share behind."""
+        steps = car.axles[0].delay / self.advance
+        sample = int(np.floor(steps + 1e-6))
+        return sample, max(round(steps - sample, 6), 0.0)
+
 
 class AnyTrain:
     """What every train answers, whether its cars have suspension or not.
@@ -277,8 +283,18 @@ class AnyTrain:
                 found.setdefault(id(car.vehicle), (car.vehicle, []))[1].append(car)
         return list(found.values())
 
-    def rigid_forces(self, track: Track, passage: Passage) -> list[np.ndarray]:
+    def rigid_forces(
+        self, track: Track, passage: Passage, more: Sequence[np.ndarray] | None = None
+    ) -> list[np.ndarray]:
         """Return the wheel forces of every car on a rigid deck, without their static part.
+
+        Parameters
+        ----------
+        track : Track
+        passage : Passage
+        more : sequence of ndarray, shape (wheels of the car, n) for each car, optional
+            What its contacts carry more than their springs do, N, upwards on the wheels, from the
+            start of its run-up (see `rail_input`) to the end of the record.
 
         Returns
         -------
@@ -289,9 +305,11 @@ class AnyTrain:
         def zeros(car: Car) -> np.ndarray:
             return np.broadcast_to(0.0, (len(car.wheels), 2, passage.samples))
 
-        return self._on_rigid_deck(Vehicle.sampled, zeros, track, passage)
+        return self._on_rigid_deck(Vehicle.sampled, zeros, track, passage, more)
 
-    def rigid_accelerations(self, track: Track, passage: Passage) -> list[np.ndarray]:
+    def rigid_accelerations(
+        self, track: Track, passage: Passage, more: Sequence[np.ndarray] | None = None
+    ) -> list[np.ndarray]:
         """Return the accelerations of every car body on a rigid deck, m/s2.
 
         Returns
@@ -303,9 +321,11 @@ class AnyTrain:
         def zeros(car: Car) -> np.ndarray:
             return np.zeros((len(car.vehicle.body_places), 2, passage.samples))
 
-        return self._on_rigid_deck(Vehicle.sampled_body, zeros, track, passage)
+        return self._on_rigid_deck(Vehicle.sampled_body, zeros, track, passage, more)
 
-    def rigid_motion(self, track: Track, passage: Passage) -> list[np.ndarray]:
+    def rigid_motion(
+        self, track: Track, passage: Passage, more: Sequence[np.ndarray] | None = None
+    ) -> list[np.ndarray]:
         """Return the motion of every car on a rigid deck, m and rad, about its place at rest.
 
         Returns
@@ -318,7 +338,7 @@ class AnyTrain:
             freedoms = len(car.vehicle.labels) if car.vehicle else 0
             return np.zeros((freedoms, 1, passage.samples))
 
-        return self._on_rigid_deck(Vehicle.sampled_motion, zeros, track, passage)
+        return self._on_rigid_deck(Vehicle.sampled_motion, zeros, track, passage, more)
 
     def _on_rigid_deck(
         self,
@@ -326,21 +346,23 @@ class AnyTrain:
         zeros: Callable[[Car], np.ndarray],
         track: Track,
         passage: Passage,
+        more: Sequence[np.ndarray] | None = None,
     ) -> list[np.ndarray]:
         """Run each kind of car once on the irregularity, and shift what it answers in time."""
         errors.choice("excitation", passage.excitation, EXCITATIONS)
         known: dict[tuple, np.ndarray] = {}
         result = []
         for car in self.formation:
-            if car.vehicle is None or (track.level and not car.notches):
+            if car.vehicle is None or (track.level and not car.notches and more is None):
                 result.append(zeros(car))
                 continue
-            front = car.axles[0].delay
-            shift = int(np.floor(front / passage.advance + 1e-6))
-            fraction = max(round(front / passage.advance - shift, 6), 0.0)
-            key = id(car.vehicle), fraction, car.notches
+            shift, fraction = passage.entry(car)
+            key = id(car.vehicle), fraction, car.notches, None if more is None else car.number
             if key not in known:
                 u = _rail_input(car, track, passage, fraction)
+                if more is not None:
+                    own = more[car.number - 1]
+                    u[:, 1, : own.shape[1]] += own
                 if u.any():
                     known[key] = response(car.vehicle, passage.time_step)(u)
                 else:
@@ -350,6 +372,16 @@ class AnyTrain:
             # A car whose run-up starts after t = 0 stands on level track until then.
             result.append(np.pad(own, ((0, 0), (0, 0), (max(-first, 0), 0))) if first < 0 else own)
         return result
+
+
+def rail_input(car: Car, track: Track, passage: Passage) -> tuple[int, np.ndarray]:
+    """Return the sample at which a car's run-up begins, and k r + c r' from there on.
+
+    The input, N, has the shape (wheels, 2, n), lateral before vertical.
+    """
+    shift, fraction = passage.entry(car)
+    u = _rail_input(car, track, passage, fraction)
+    return shift + passage.samples - u.shape[-1], u
 
 
 def _rail_input(car: Car, track: Track, passage: Passage, fraction: float) -> np.ndarray:

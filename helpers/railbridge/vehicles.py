@@ -535,6 +535,11 @@ class Vehicle:
         frequencies = np.sqrt(np.clip(values, 0, None)) / (2 * np.pi)
         return Modes(frequencies, np.zeros(len(values)), shapes, self.labels, self._moving(shapes))
 
+    @cached_property
+    def highest_frequency(self) -> float:
+        """The highest of the natural frequencies, Hz."""
+        return float(self.modes().frequencies_hz[-1])
+
     def damped_modes(self) -> Modes:
         """Return the damped modes: ``|s|/(2 pi)`` and ``-Re(s)/|s|`` of every eigenvalue.
 

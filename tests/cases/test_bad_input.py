@@ -309,12 +309,6 @@ def test_condensed_loads_without_suspension():
     refused(lambda: rb.Case(axles), "run.loads = 'condensed'", "no cars to condense", "wheels")
 
 
-@pytest.mark.parametrize("loads", ["condensed", "bogies"])
-def test_condensed_loads_for_the_direct_solution(loads):
-    run = {"speed": 20.0, "interaction": "direct", "loads": loads}
-    refused(lambda: rb.Case({**PAPER, "run": run}), "run.loads|run.interaction", "direct", "wheels")
-
-
 @pytest.mark.parametrize(
     ("train", "words"),
     [
@@ -348,33 +342,26 @@ def test_non_convergence_is_an_error_with_what_to_try(monkeypatch):
     deck = rb.deck_from_table("light", {**OWN_DECK, "mass": 1e3})
     with pytest.raises(
         rb.NotConvergedError,
-        match=r"^max_iterations = 3: .* interaction = 'direct', relaxation = 0.5 or 'aitken', or",
+        match=r"^max_iterations = 2: .* interaction = 'direct', relaxation = 0.5 or 'aitken', or",
     ) as error:
         rb.cross(
             rb.Train(rb.vehicle("xia2000_planar")),
             deck,
             speed=30.0,
             time_step=2e-3,
-            max_iterations=3,
+            max_iterations=2,
         )
-    assert error.value.run.iterations == 3
+    assert error.value.run.iterations == 2
 
 
-@pytest.mark.parametrize(
-    ("run", "words"),
-    [
-        ({}, "Try run.interaction = 'direct', run.relaxation = 0.5"),
-        ({"feedback": "vertical"}, "Try run.interaction = 'direct' with run.feedback = 'all', "),
-        ({"loads": "bogies"}, "Try run.relaxation = 0.5 or 'aitken', more run.max_iterations, or "
-         "run.loads = 'wheels' with run.interaction = 'direct'"),
-    ],
-)  # fmt: skip
-def test_the_direct_solution_is_named_first_where_it_can_be_had(monkeypatch, run, words):
+@pytest.mark.parametrize("run", [{}, {"feedback": "vertical"}, {"loads": "bogies"}])
+def test_the_direct_solution_is_named_first(monkeypatch, run):
     monkeypatch.setattr(crossing, "prepare", prepare)
-    options = {"speed": 30.0, "time_step": 2e-3, "max_iterations": 3, "lead_in": 0.0, **run}
+    options = {"speed": 30.0, "time_step": 2e-3, "max_iterations": 2, "lead_in": 0.0, **run}
     tables = {"deck": {**OWN_DECK, "mass": 1e3}, "train": {"vehicle": "xia2000_planar"}}
     with pytest.raises(rb.NotConvergedError) as error:
         rb.Case({**tables, "run": options}).run()
+    words = "Try run.interaction = 'direct', run.relaxation = 0.5 or 'aitken', or more run.max"
     assert words in str(error.value)
 
 

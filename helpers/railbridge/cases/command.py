@@ -312,6 +312,8 @@ def _headline(loaded: Case, run: Crossing) -> str:
     solved = f"solved ({run.settings.interaction})"
     if run.converged is not None:
         solved = f"converged in {passes}"
+        if run.windows is not None:
+            solved = f"converged in {len(run.windows.stops)} windows in time"
         if not run.converged:
             solved = f"{passes}, last change {run.changes[-1]:.2g}"
     x, value = _worst(loaded, run)

@@ -52,7 +52,8 @@ def summarize(
     dict
         ``vehicle_frequencies_hz`` (of the first kind of car), ``deck_frequencies_hz`` and
         ``deck_mode_names``; ``remarks``; ``converged``, ``iterations`` (solves after the rigid
-        one), ``changes``; ``deviation_percent`` (Eq. 3); ``run`` (how it was computed);
+        one), ``windows``, ``changes``; ``deviation_percent`` (Eq. 3); ``run`` (how it was
+        computed);
         ``wheel_force_z`` (N on the deck, static part included: ``min`` is the heaviest) and
         ``wheel_unloading`` (1 - force / static); ``points``, ``envelope``, ``reactions``,
         ``car_body``, ``self_weight``.
@@ -77,7 +78,8 @@ def summarize(
         "deck_mode_names": list(deck.mode_names),
         "remarks": [str(remark) for remark in remarks],
         "converged": run.converged if iterated else None,
-        "iterations": run.iterations if iterated else 0,
+        "iterations": _passes(run) if iterated else 0,
+        "windows": None if run.windows is None else len(run.windows.stops),
         "changes": list(run.changes) if iterated else None,
         "deviation_percent": _deviations(run),
         "run": {
@@ -99,6 +101,11 @@ def summarize(
 def to_json(summary: dict[str, Any]) -> str:
     """Return the summary as the text of ``summary.json``."""
     return json.dumps(summary, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def _passes(run: Crossing) -> int:
+    """Return the solves after the rigid one; of several windows the most that one took."""
+    return run.iterations if run.windows is None else int(run.windows.passes.max())
 
 
 # ---- histories

@@ -1,0 +1,530 @@
+r"""Train and deck stepped together, sample by sample: the arrays, and the loop in NumPy.
+
+All systems are in the form of `response`: what a car keeps from one sample to the next is its state
+without the new sample's input, s, so that with the new input U
+
+    y = R s + D U,        s of the next sample = S s + Q U,
+
+and of every mode of the deck, with its new modal force f,
+
+    (q, q') = (q, q')* + (r_q, r_v) f.
+
+At each sample cars and deck meet in the forces. With Phi the shapes at the axles and Phi' times V
+their slopes (three rows an axle: y, z, roll), Psi the rows of the load stations, L the car's
+`load_matrix`, and K, C the stiffness and damping of the contacts on what a wheel feels of its axle,
+
+    m = Phi q,  m' = V Phi' q + Phi q',         the deck below the axles,
+    U = u_rail + K m + C m' + p,                what the car's contacts are given,
+    F = F_known + y - U,                        the forces of the wheels on the deck,
+    f = sum over cars of Psi^T L F,             those on the modes.
+
+Everything but p is linear, which leaves one system of the size of the number of modes. On permanent
+contact p = 0, and cars are stepped only while they are on the deck: `F_known` is then their force
+on a rigid deck.
+
+A Hertzian contact carries ``P(d) = P0 (d / d0)^(3/2)`` where it is pressed together by d > 0, and
+nothing where it is not; d0 = 3 P0 / (2 k) is what makes k its stiffness at the static load P0.
+Where the contact's spring is stretched by e it is pressed by ``d0 - e``, and p, what it carries
+more than its tangent, is the solution of
+
+    p = P(d0 - e) - P0 + k e,       e = (y - u) / k,
+
+for all wheels at once, by Newton's method in each step. Cars are then stepped over the whole record
+from the start of their run-up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .coupling import CoupledCar, Coupling
+from .errors import brief
+from .guideways import Stations
+from .response import SampledResponse, oscillator
+from .tracks import Track
+from .trains import rail_input
+
+__all__ = ["CarSteps", "Marched", "Plan", "handed_on", "march", "plan", "pressing", "step"]
+
+TOLERANCE = 1e-13
+"""Of a contact's force in a step, share of the largest static wheel force."""
+MOST = 60
+"""Newton's steps in one sample."""
+
+
+@dataclass(frozen=True, eq=False)
+class CarSteps:
+    """One kind of car, ready to be stepped. Wheels have two directions each, d in all.
+
+    Attributes
+    ----------
+    decay : ndarray, shape (m,) or (m, m)
+        S; complex where the car's modes are known, of which only one of each pair is kept.
+    drive : ndarray, shape (m, d)
+        Q.
+    ahead : ndarray, shape (m, d)
+        What the new sample's input adds to the state at once.
+    show : ndarray, shape (d, m)
+        R.
+    direct : ndarray, shape (d, d)
+        D - 1: from U to F in the same sample.
+    stiffness, damping : ndarray, shape (d, 3 axles)
+        K and C.
+    loads : ndarray, shape (rows, d)
+        L.
+    """
+
+    __repr__ = brief
+
+    decay: np.ndarray
+    drive: np.ndarray
+    ahead: np.ndarray
+    show: np.ndarray
+    direct: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+    loads: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """All that the loop needs. Cars are numbered from 0; axles and load stations car by car.
+
+    Attributes
+    ----------
+    onward : ndarray, shape (6, modes)
+        Of every mode: q from q and q', q' from q and q', q and q' from the force of the sample
+        before.
+    reach : ndarray, shape (2, modes)
+        r_q, r_v.
+    tables : tuple of ndarray, shape (samples on the deck, 2, 3, modes)
+        Shapes and V times slopes below an axle, for each way axles meet the samples.
+    load_tables : tuple of ndarray, shape (samples on the deck, 3 or 5, modes)
+        Rows of Psi of a load station.
+    axles, loads : ndarray of int, shape (stations, 3)
+        First sample, number of samples, table of every axle and load station.
+    of_cars : ndarray of int, shape (cars, 4)
+        First axle, number of axles, first load station, number of load stations of every car.
+    cars : tuple of CarSteps
+        Of every car; cars of one kind share theirs.
+    windows : ndarray of int, shape (cars, 2)
+        First sample and the one behind the last that a car is stepped.
+    starts : tuple of ndarray, shape (m,)
+        s of every car at the first of them.
+    known : tuple of ndarray, shape (d, samples of the window)
+        F_known.
+    first, samples : int
+        The first sample, not above 0, and how many there are from 0 on.
+    rail : tuple of ndarray, shape (d, samples of the window), or None
+        u_rail; None where the contact is permanent.
+    pressed : tuple of ndarray, shape (2, wheels), or None
+        P0 (N) and d0 (m) of every wheel; None where the contact is permanent.
+    """
+
+    __repr__ = brief
+
+    onward: np.ndarray
+    reach: np.ndarray
+    tables: tuple[np.ndarray, ...]
+    load_tables: tuple[np.ndarray, ...]
+    axles: np.ndarray
+    loads: np.ndarray
+    of_cars: np.ndarray
+    cars: tuple[CarSteps, ...]
+    windows: np.ndarray
+    starts: tuple[np.ndarray, ...]
+    known: tuple[np.ndarray, ...]
+    first: int
+    samples: int
+    rail: tuple[np.ndarray, ...] | None = None
+    pressed: tuple[np.ndarray, ...] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Marched:
+    """What the loop gives.
+
+    Attributes
+    ----------
+    q, velocity, force : ndarray, shape (modes, samples)
+        The deck's, from t = 0 on.
+    more : tuple of ndarray, shape (wheels, samples of the window)
+        p of every car, N; empty where the contact is permanent.
+    """
+
+    __repr__ = brief
+
+    q: np.ndarray
+    velocity: np.ndarray
+    force: np.ndarray
+    more: tuple[np.ndarray, ...] = ()
+
+
+def plan(coupling: Coupling, track: Track | None = None) -> Plan:
+    """Prepare a crossing to be stepped.
+
+    Parameters
+    ----------
+    coupling : Coupling
+    track : Track, optional
+        What the rails give, where contacts are Hertzian; permanent contact if not given.
+    """
+    samples = coupling.settings.samples
+    cars = [c for c in coupling.cars if c.respond is not None]
+    made: dict[int, CarSteps] = {}
+    for c in cars:
+        if id(c.car.vehicle) not in made:
+            made[id(c.car.vehicle)] = _car_steps(coupling, c)
+    steps = tuple(made[id(c.car.vehicle)] for c in cars)
+    static = [c.static.reshape(-1, 1) for c in cars]
+    if track is None:
+        windows = [(c.window.start, c.window.stop) for c in cars]
+        known = [
+            c.rigid[..., c.window].reshape(len(own), -1) + own
+            for c, own in zip(cars, static, strict=True)
+        ]
+        rail = pressed = None
+        starts = [np.zeros(len(car.drive), car.drive.dtype) for car in steps]
+    else:
+        inputs = [rail_input(c.car, track, coupling.settings.passage) for c in cars]
+        windows = [(first, max(first, samples)) for first, _ in inputs]
+        known = static
+        rail = tuple(
+            np.ascontiguousarray(u.reshape(-1, u.shape[-1])[:, : stop - start])
+            for (_, u), (start, stop) in zip(inputs, windows, strict=True)
+        )
+        pressed = tuple(_pressed(c) for c in cars)
+        starts = [-(car.ahead @ u[:, 0]) for car, u in zip(steps, rail, strict=True)]
+    onward, reach = _deck_steps(coupling)
+    couples = coupling.cars[0].load_matrix.shape[1] == 5
+    speed = coupling.settings.speed
+    tables = [np.stack([v, speed * s], axis=1) for v, s in _dense(coupling.axles)]
+    # A couple does work on the slope: M_z on v', and M_y on theta_y = -w'.
+    load_tables = [
+        np.concatenate([v, -s[:, 1:2], s[:, :1]], axis=1) if couples else v
+        for v, s in _dense(coupling.loads)
+    ]
+    return Plan(
+        onward, reach, tuple(tables), tuple(load_tables),
+        _placed(coupling.axles), _placed(coupling.loads),
+        np.array([(c.axles[0], len(c.axles), c.loads[0], len(c.loads)) for c in cars]),
+        steps, np.array(windows), tuple(starts), tuple(known),
+        min(0, *(first for first, _ in windows)), samples, rail, pressed,
+    )  # fmt: skip
+
+
+def _car_steps(coupling: Coupling, c: CoupledCar) -> CarSteps:
+    """Return a kind of car at the crossing's step, and what its wheels feel and load."""
+    vehicle, settings = c.car.vehicle, coupling.settings
+    sampled: SampledResponse = c.respond.respond
+    system = vehicle.system
+    if sampled.coefficients is None:
+        decay, b0, ahead = system.step(settings.time_step)
+        drive, show = decay @ ahead + b0, system.c
+    else:
+        _, left, show, _ = system.modal
+        decay, b0, b1 = sampled.coefficients
+        drive, ahead = (b0 + decay * b1)[:, None] * left, b1[:, None] * left
+    direct = (show @ ahead).real - np.eye(len(show))
+    felt = np.zeros((len(c.car.wheels), 2, len(c.car.axles), 3))
+    for i, axle in enumerate(c.car.axles):
+        for wheel in axle.wheels:
+            own = felt[wheel.number - 1, :, i]
+            if settings.feedback == "all":
+                # The rail moves sideways by v - h theta and up by w + y theta.
+                own[0] = 1.0, 0.0, -coupling.deck.track_height
+                own[1] = 0.0, 1.0, settings.track_offset + wheel.y
+            else:
+                own[1] = 0.0, 1.0, 0.0
+    felt = felt.reshape(len(direct), -1)
+    stiffness, damping = (
+        values.reshape(-1, 1) * felt
+        for values in (vehicle.contact_stiffness, vehicle.contact_damping)
+    )
+    loads = c.load_matrix.reshape(-1, len(direct))
+    return CarSteps(decay, drive, ahead, show, direct, stiffness, damping, loads)
+
+
+def _deck_steps(coupling: Coupling) -> tuple[np.ndarray, np.ndarray]:
+    """Return how every mode of the deck goes on, see `Plan`."""
+    deck, h = coupling.deck, coupling.settings.time_step
+    onward, reach = np.zeros((6, deck.coordinates)), np.zeros((2, deck.coordinates))
+    for m, (frequency, ratio) in enumerate(
+        zip(deck.frequencies_hz, deck.damping_ratios, strict=True)
+    ):
+        e, b0, b1 = oscillator(2 * np.pi * frequency, ratio).step(h)
+        onward[:4, m], onward[4:, m], reach[:, m] = e.ravel(), b0[:, 0], b1[:, 0]
+    return onward, reach
+
+
+def _dense(stations: Stations) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return shapes and slopes of every table, each of shape (samples, 3, modes)."""
+    mode, component = stations.pairs
+    modes = int(mode.max(initial=-1)) + 1
+    result = []
+    for table in stations.tables:
+        full = np.zeros((2, table[0].shape[1], 3, modes))
+        for own, values in zip(full, table, strict=True):
+            own[:, component, mode] = values.T
+        result.append((full[0], full[1]))
+    return result
+
+
+def _placed(stations: Stations) -> np.ndarray:
+    return np.stack([stations.starts, stations.counts, stations.which], axis=1)
+
+
+def _pressed(c: CoupledCar) -> np.ndarray:
+    """Return P0 and d0 of a car's wheels."""
+    load = -c.static[:, 1]
+    return np.stack([load, 1.5 * load / c.car.vehicle.contact_stiffness[:, 1]])
+
+
+# ---- the loop
+
+
+@dataclass(frozen=True, eq=False)
+class _Met:
+    """One car at one sample, before the deck's new forces are known.
+
+    Attributes
+    ----------
+    car : int
+    u : ndarray, shape (d,)
+        U without the deck's new forces and without p.
+    force : ndarray, shape (d,)
+        F with that.
+    per : ndarray, shape (d, modes), or None
+        What the deck's new forces add to U; None off the deck.
+    back : ndarray, shape (modes, d), or None
+        Psi^T L.
+    through : ndarray, shape (modes, d), or None
+        From what U gets more to the deck's forces.
+    """
+
+    car: int
+    u: np.ndarray
+    force: np.ndarray
+    per: np.ndarray | None = None
+    back: np.ndarray | None = None
+    through: np.ndarray | None = None
+
+
+def march(plan: Plan, progress: Callable[[str], None] | None = None) -> Marched:
+    """Step train and deck together, in NumPy.
+
+    Raises
+    ------
+    ArithmeticError
+        A contact force that Newton's method does not find.
+    """
+    modes = plan.reach.shape[1]
+    deck = np.zeros((3, modes, plan.samples))
+    states = [start.copy() for start in plan.starts]
+    more: tuple[np.ndarray, ...] = ()
+    if plan.rail is not None:
+        more = tuple(np.zeros((len(own) // 2, own.shape[1])) for own in plan.rail)
+    before = np.zeros((3, modes))
+    for k in range(plan.first, plan.samples):
+        if progress is not None and k % 500 == 0:
+            progress(f"step {k} of {plan.samples}")
+        before, inputs = step(plan, k, before, states, more)
+        if k >= 0:
+            deck[:, :, k] = before
+        for i, u in inputs.items():
+            states[i] = handed_on(plan.cars[i], states[i], u[:, None])
+    return Marched(*deck, more)
+
+
+def step(
+    plan: Plan,
+    k: int,
+    before: np.ndarray,
+    states: Sequence[np.ndarray],
+    more: tuple[np.ndarray, ...] = (),
+) -> tuple[np.ndarray, dict[int, np.ndarray]]:
+    """Solve train and deck at one sample.
+
+    Parameters
+    ----------
+    plan : Plan
+    k : int
+    before : ndarray, shape (3, modes)
+        q, q' and the modal forces of the sample before.
+    states : sequence of ndarray
+        s of every car.
+    more : tuple of ndarray
+        See `Marched`; this sample's is filled in.
+
+    Returns
+    -------
+    ndarray, shape (3, modes)
+        q, q' and the modal forces.
+    dict of ndarray, shape (d,)
+        U of the cars that are stepped, by number.
+    """
+    modes = plan.reach.shape[1]
+    still = np.zeros(modes)
+    ahead, rate, reach = still, still, (still, still)
+    if k > 0:
+        e, reach = plan.onward, plan.reach
+        ahead = e[0] * before[0] + e[1] * before[1] + e[4] * before[2]
+        rate = e[2] * before[0] + e[3] * before[1] + e[5] * before[2]
+    met = [
+        _meet(plan, i, k, states[i], (ahead, rate), reach)
+        for i, (start, stop) in enumerate(plan.windows)
+        if start <= k < stop
+    ]
+    on = [own for own in met if own.per is not None]
+    new = still
+    if on:
+        coupled = np.eye(modes) - sum(own.through @ own.per for own in on)
+        new = np.linalg.solve(coupled, sum(own.back @ own.force for own in on))
+    if plan.pressed is not None:
+        for own in met:
+            if own.per is None:
+                _press(plan, k, [own], more)
+        if on:
+            through = [own.through[:, 1::2] for own in on]
+            gain = np.linalg.solve(coupled, np.concatenate(through, axis=1))
+            new = new + gain @ _press(plan, k, on, more, new, gain)
+    inputs = {}
+    for own in met:
+        u = inputs[own.car] = own.u if own.per is None else own.u + own.per @ new
+        if plan.pressed is not None:
+            u[1::2] += more[own.car][:, k - plan.windows[own.car, 0]]
+    return np.stack([ahead + reach[0] * new, rate + reach[1] * new, new]), inputs
+
+
+def handed_on(car: CarSteps, state: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Return s behind some samples with inputs U, shape (d, n); only one where S is no diagonal."""
+    if u.shape[1] == 1:
+        kept = car.decay * state if car.decay.ndim == 1 else car.decay @ state
+        return kept + car.drive @ u[:, 0]
+    n = u.shape[1]
+    powers = car.decay[:, None] ** np.arange(n - 1, -1, -1)
+    return car.decay**n * state + np.einsum("mn,mn->m", powers, car.drive @ u)
+
+
+def _meet(
+    plan: Plan,
+    number: int,
+    k: int,
+    state: np.ndarray,
+    deck: tuple[np.ndarray, np.ndarray],
+    reach: Sequence[np.ndarray],
+) -> _Met:
+    """Return one car at a sample, with the deck as it is without its new forces."""
+    car, at = plan.cars[number], k - plan.windows[number, 0]
+    known = plan.known[number]
+    force = known[:, min(at, known.shape[1] - 1)] + (car.show @ state).real
+    u = np.zeros(len(force)) if plan.rail is None else plan.rail[number][:, at].copy()
+    axle, axles, load, loads = plan.of_cars[number]
+    below = [_row(plan.tables, plan.axles[i], k) for i in range(axle, axle + axles)]
+    under = [_row(plan.load_tables, plan.loads[i], k) for i in range(load, load + loads)]
+    if all(own is None for own in (*below, *under)):
+        return _Met(number, u, force + car.direct @ u)
+    modes = plan.reach.shape[1]
+    none = np.zeros((2, 3, modes))
+    shapes, slopes = np.concatenate([none if own is None else own for own in below], axis=1)
+    none = np.zeros((len(car.loads) // loads, modes))
+    acting = np.concatenate([none if own is None else own for own in under])
+    of_motion, of_rate = car.stiffness @ shapes + car.damping @ slopes, car.damping @ shapes
+    u += of_motion @ deck[0] + of_rate @ deck[1]
+    back = acting.T @ car.loads
+    per = of_motion * reach[0] + of_rate * reach[1]
+    return _Met(number, u, force + car.direct @ u, per, back, back @ car.direct)
+
+
+def _row(tables: Sequence[np.ndarray], station: np.ndarray, k: int) -> np.ndarray | None:
+    """Return a station's part of a table at a sample, None off the deck."""
+    start, count, which = station
+    return tables[which][k - start] if 0 <= k - start < count else None
+
+
+def _press(
+    plan: Plan,
+    k: int,
+    met: Sequence[_Met],
+    more: tuple[np.ndarray, ...],
+    new: np.ndarray | None = None,
+    gain: np.ndarray | None = None,
+) -> np.ndarray:
+    """Find what the contacts of some cars carry more than their tangents, and note it in `more`.
+
+    Parameters
+    ----------
+    plan : Plan
+    k : int
+    met : sequence of _Met
+        Cars that meet: all on the deck, or one off it.
+    more : tuple of ndarray
+        See `Marched`.
+    new : ndarray, shape (modes,), optional
+        The deck's new forces with p = 0.
+    gain : ndarray, shape (modes, wheels), optional
+        What p adds to them.
+
+    Returns
+    -------
+    ndarray, shape (wheels,)
+        N.
+    """
+    cars = [plan.cars[own.car] for own in met]
+    ends = np.cumsum([0, *(len(own.u) // 2 for own in met)])
+    linear, answer = np.zeros(ends[-1]), np.zeros((ends[-1], ends[-1]))
+    guess, pressed = np.zeros(ends[-1]), np.zeros((2, ends[-1]))
+    for own, car, a, b in zip(met, cars, ends[:-1], ends[1:], strict=True):
+        forces, at = own.force, k - plan.windows[own.car, 0]
+        answer[a:b, a:b] = car.direct[1::2, 1::2]
+        if gain is not None:
+            per = car.direct[1::2] @ own.per
+            answer[a:b] += per @ gain
+            linear[a:b] = forces[1::2] + per @ new
+        else:
+            linear[a:b] = forces[1::2]
+        pressed[:, a:b] = plan.pressed[own.car]
+        guess[a:b] = more[own.car][:, at - 1] if at else 0.0
+    found = pressing(linear, answer, *pressed, guess)
+    for own, a, b in zip(met, ends[:-1], ends[1:], strict=True):
+        more[own.car][:, k - plan.windows[own.car, 0]] = found[a:b]
+    return found
+
+
+def pressing(
+    linear: np.ndarray, answer: np.ndarray, load: np.ndarray, depth: np.ndarray, guess: np.ndarray
+) -> np.ndarray:
+    """Return p of Hertzian contacts, N, shape (wheels,).
+
+    Parameters
+    ----------
+    linear : ndarray, shape (wheels,)
+        Forces on the deck with p = 0, N.
+    answer : ndarray, shape (wheels, wheels)
+        What p adds to them.
+    load, depth : ndarray, shape (wheels,)
+        P0 (N) and d0 (m).
+    guess : ndarray, shape (wheels,)
+        Where Newton's method starts.
+
+    Raises
+    ------
+    ArithmeticError
+        Where it does not settle.
+    """
+    p, k = guess.copy(), 1.5 * load / depth
+    identity = np.eye(len(p))
+    for _ in range(MOST):
+        carried = -(linear + answer @ p)
+        share = np.maximum(1.0 - (load - carried + p) / (k * depth), 0.0)
+        wrong = carried - load * share**1.5
+        tangent = k * np.sqrt(share)
+        slope = (tangent / k)[:, None] * (answer + identity) - answer
+        step = np.linalg.solve(slope, wrong)
+        p = p - step
+        if np.max(np.abs(step)) <= TOLERANCE * load.max():
+            return p
+    raise ArithmeticError("a contact force does not settle within a step")
