@@ -1,0 +1,75 @@
+"""A sprung mass on a wheel on a beam, with a contact after Hertz, as plain differential equations.
+
+Written for the tests from Newton's laws, without the package: scipy's adaptive integrator at a tight
+tolerance, so that a wheel that leaves the rail does so between any samples.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+G = 9.81
+
+
+@dataclass(frozen=True)
+class Rider:
+    """A body on a spring and damper on a wheel; the contact's tangent at the static load is k_c."""
+
+    wheel: float
+    body: float
+    stiffness: float
+    damping: float
+    contact: float
+
+    @property
+    def load(self):
+        """Static load of the wheel, N."""
+        return (self.wheel + self.body) * G
+
+
+def crossing(rider, speed, length, ei, mass, ratio, modes, rail, times, start=0.0, unilateral=True):
+    """Return wheel force on the beam (N, down positive), mid-span displacement (m) and energy (J).
+
+    The wheel is at x = speed t + start (m) and stands still relative to the rail at first. `rail`
+    gives r(x) and is level before. Energy counts masses, springs, contact and the beam, about the
+    static position of everything on a rigid level track.
+    """
+    n = np.arange(1, modes + 1)
+    omega = (n * np.pi / length) ** 2 * np.sqrt(ei / mass)
+    depth = 1.5 * rider.load / rider.contact
+
+    def shape(x):
+        inside = 0.0 <= x <= length
+        return np.sin(n * np.pi * x / length) * np.sqrt(2.0 / (mass * length)) * inside
+
+    def force(x, q, zw):
+        d = depth + shape(x) @ q + rail(x) - zw
+        if not unilateral:
+            return rider.load + rider.contact * (d - depth)
+        return rider.load * (max(d, 0.0) / depth) ** 1.5
+
+    def rates(t, s):
+        q, v = s[:modes], s[modes : 2 * modes]
+        zw, zb, vw, vb = s[2 * modes :]
+        x = speed * t + start
+        p = force(x, q, zw)
+        spring = rider.stiffness * (zb - zw) + rider.damping * (vb - vw)
+        return np.concatenate(
+            [
+                v,
+                -2 * ratio * omega * v - omega**2 * q - shape(x) * p,
+                [vw, vb, (p - rider.load + spring) / rider.wheel, -spring / rider.body],
+            ]
+        )
+
+    y0 = np.zeros(2 * modes + 4)
+    found = solve_ivp(
+        rates, (times[0], times[-1]), y0, "DOP853", times, rtol=1e-10, atol=1e-13, max_step=5e-4
+    )
+    q, zw, zb = found.y[:modes].T, found.y[2 * modes], found.y[2 * modes + 1]
+    forces = np.array(
+        [force(speed * t + start, a, b) for t, a, b in zip(times, q, zw, strict=True)]
+    )
+    middle = q @ shape(length / 2)
+    return forces, middle

@@ -1,0 +1,72 @@
+"""The compiled loop gives what the loop in NumPy gives, to the last digits."""
+
+import numpy as np
+import pytest
+
+import railbridge as rb
+from railbridge.coupling import prepare
+from railbridge.settings import check
+from railbridge.stepping import march, plan
+
+compiled = pytest.importorskip("railbridge.compiled", reason="needs the extra `fast`")
+
+DECK = rb.deck("viaduct36")
+CAR = rb.vehicle("xia2000")
+LIGHT = rb.planar_car(CAR)
+TRACK = rb.Track(
+    vertical=rb.Harmonic(5e-3, wavelength=14.4),
+    lateral=rb.Harmonic(2e-3, wavelength=7.0, phase=1.0),
+)
+SHORT = rb.Track(vertical=rb.Harmonic(1.5e-3, wavelength=2.5))
+
+
+def both(train, track, deck=DECK, **options):
+    chosen = {"speed": 50.0, "track_offset": 2.4, "time_step": 2e-3, "tail": 0.1, "lead_in": 60.0}
+    settings = check(train, deck, track, **(chosen | options))
+    steps = plan(
+        prepare(train, deck, track, settings), track if settings.contact == "hertz" else None
+    )
+    return march(steps), compiled.march(steps)
+
+
+def apart(pair):
+    numpy, fast = pair
+    parts = [(getattr(numpy, n), getattr(fast, n)) for n in ("q", "velocity", "force")]
+    parts += list(zip(numpy.more, fast.more, strict=True))
+    return max(np.max(np.abs(a - b)) / np.max(np.abs(a)) for a, b in parts)
+
+
+@pytest.mark.parametrize("feedback", ["all", "vertical"])
+@pytest.mark.parametrize("loads", ["wheels", "bogies", "condensed"])
+def test_permanent_contact(loads, feedback):
+    train = rb.Train(CAR, cars=3)
+    assert apart(both(train, TRACK, loads=loads, feedback=feedback)) < 1e-12
+
+
+def test_cars_of_several_kinds_and_wheels():
+    train = rb.Train([CAR, LIGHT, rb.with_wheelsets(LIGHT, mass=1500.0)], car_spacing=23.3)
+    assert apart(both(train, TRACK)) < 1e-12
+
+
+def test_a_deck_whose_ends_move_and_that_is_overdamped():
+    content = {
+        "length": 20.0, "bending_stiffness_vertical": 5e9, "mass": 8000.0, "modes": 9,
+        "damping": {"ratio": 0.05, "frequencies_hz": [3.0, 9.0]},
+        "bearing": [
+            {"x": x, "fixed": "x y roll", "stiffness": {"z": 5e8}} for x in (0.0, 20.0)
+        ],
+    }  # fmt: skip
+    deck = rb.deck_from_table("elastic", content)
+    assert apart(both(rb.Train(LIGHT, cars=2), TRACK, deck, track_offset=0.0)) < 1e-12
+
+
+def test_hertzian_contacts_that_part():
+    train = rb.Train(rb.with_wheelsets(CAR, mass=1800.0), cars=2)
+    pair = both(train, SHORT, contact="hertz", speed=60.0, time_step=1e-3)
+    assert apart(pair) < 1e-11
+    static = train.cars and train.wheels[0].static_load
+    run = rb.cross(
+        train, DECK, SHORT, speed=60.0, time_step=1e-3, track_offset=2.4, contact="hertz",
+        tail=0.1, lead_in=60.0,
+    )  # fmt: skip
+    assert run.parted.any() and run.wheel_forces[:, 1].max() < 1e-6 * static

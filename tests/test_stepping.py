@@ -1,0 +1,130 @@
+"""Train and deck stepped together: contacts after Hertz, against plain differential equations."""
+
+import numpy as np
+import pytest
+from hertz_ode import Rider, crossing
+
+import railbridge as rb
+from railbridge.stepping import pressing
+from railbridge.vehicles import Body, Spring, Vehicle
+
+RIDER = Rider(wheel=1000.0, body=6000.0, stiffness=1.5e6, damping=2e4, contact=1.0e9)
+LENGTH, EI, MASS, SPEED = 20.0, 6e9, 6000.0, 40.0
+
+
+def vehicle(rider=RIDER, damping=None):
+    bodies = tuple(
+        Body(name, mass, (0.0, 0.0, 0.0), (0.0, 0.0, z), ("z",))
+        for name, mass, z in (("body", rider.body, 1.0), ("wheel", rider.wheel, 0.45))
+    )
+    dashpot = rider.damping if damping is None else damping
+    springs = (
+        Spring("body", "wheel", (0.0, 0.0, 0.7), (0.0, rider.stiffness), (0.0, dashpot)),
+        Spring("wheel", "rail", (0.0, 0.0, 0.0), (0.0, rider.contact), (0.0, 0.0)),
+    )
+    return Vehicle("rider", bodies, springs, 10.0)
+
+
+def run_of(amplitude, step, ratio=0.01, damping=None, **options):
+    deck = rb.Beam("beam", (LENGTH,), MASS, EI).deck(4, ratio)
+    track = rb.Track(vertical=rb.Harmonic(amplitude, wavelength=1.5))
+    chosen = {"speed": SPEED, "time_step": step, "lead_in": 0.0, "tail": 0.1, "contact": "hertz"}
+    return rb.cross(rb.Train(vehicle(damping=damping)), deck, track, **(chosen | options))
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "parts"), [pytest.param(2e-4, False, id="pressed"), pytest.param(1e-3, True, id="parted")]
+)  # fmt: skip
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+def test_hertzian_contact_is_that_of_the_differential_equations(amplitude, parts):
+    times = np.arange(0.0, 0.5, 2.5e-4)
+
+    def rail(x):
+        return amplitude * np.sin(2 * np.pi * x / 1.5) if x >= 0.0 else 0.0
+
+    force, middle = crossing(RIDER, SPEED, LENGTH, EI, MASS, 0.01, 4, rail, times)
+    errors = []
+    for step in (2.5e-4, 1.25e-4, 6.25e-5):
+        run = run_of(amplitude, step)
+        every = round(2.5e-4 / step)
+        ours = -run.wheel_forces[0, 1, ::every][: len(times)]
+        moved = run.displacement(10.0, kept_only=True)["displacement_z"][::every][: len(times)]
+        errors.append(np.sqrt(np.mean((ours - force) ** 2)) / force.std())
+        assert np.max(np.abs(moved - middle)) < 40.0 * (step / 2e-2) ** 2 * np.max(np.abs(middle))
+        assert run.parted.any() == parts
+    assert errors[-1] < 1e-3
+    # With the square of the step, as for contacts that hold.
+    assert errors[1] < errors[0] / 2.2 and errors[2] < errors[1] / 2.2
+    linear = crossing(RIDER, SPEED, LENGTH, EI, MASS, 0.01, 4, rail, times, unilateral=False)[0]
+    assert np.max(np.abs(linear - force)) > 0.05 * force.max()  # the law itself matters here
+
+
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+def test_energy_is_what_the_pull_has_put_in():
+    """Without dampers: energy changes by the work of the force that keeps the speed."""
+    gains = []
+    for step in (1e-4, 5e-5):
+        run = run_of(1e-3, step, ratio=0.0, damping=0.0)
+        energy, work = balance(run, 1e-3)
+        assert run.parted.any() and np.ptp(energy) > 20.0
+        gains.append(np.max(np.abs(energy - energy[0] - work)) / np.ptp(energy))
+    assert gains[1] < 0.01 and gains[1] < gains[0] / 2.5, gains
+
+
+def balance(run, amplitude):
+    """Energy about the static place on a rigid level track, and the work of the pull, J."""
+    on = run.time < LENGTH / SPEED - 1e-9
+    t, h = run.time[on], run.settings.time_step
+    n = np.arange(1, 5)[:, None]
+    root = np.sqrt(2.0 / (MASS * LENGTH))
+    x = SPEED * t
+    shape = root * np.sin(n * np.pi * x / LENGTH)
+    slope = root * n * np.pi / LENGTH * np.cos(n * np.pi * x / LENGTH)
+    # Signs of shapes are the deck's own.
+    own = run.deck.shapes(np.array([2.0]))[0, :, 1]
+    sign = np.sign(own * np.sin(n[:, 0] * np.pi * 2.0 / LENGTH))[:, None]
+    q, velocity = (sign * getattr(run.state, name)[:, on] for name in ("q", "velocity"))
+    force = -run.wheel_forces[0, 1, on]
+    motion = run.car_motion(1)
+    wheel, body = motion["wheel z"][on], motion["body z"][on]
+    rates = np.gradient(wheel, h), np.gradient(body, h)
+    wave = 2 * np.pi / 1.5
+    rail, climb = amplitude * np.sin(wave * x), amplitude * wave * np.cos(wave * x)
+    load = RIDER.load
+    depth = 1.5 * load / RIDER.contact
+    pressed = np.maximum(depth + rail + np.sum(shape * q, axis=0) - wheel, 0.0)
+    omega2 = (2 * np.pi * run.deck.frequencies_hz[:, None]) ** 2
+    energy = (
+        0.5 * RIDER.wheel * rates[0] ** 2
+        + 0.5 * RIDER.body * rates[1] ** 2
+        + 0.5 * RIDER.stiffness * (body - wheel) ** 2
+        + load * wheel
+        + 0.4 * load * pressed**2.5 / depth**1.5
+        + 0.5 * np.sum(velocity**2 + omega2 * q**2, axis=0)
+    )
+    power = force * SPEED * (climb + np.sum(slope * q, axis=0))
+    work = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * h)])
+    return energy[2:-2] - energy[2], work[2:-2] - work[2]
+
+
+def test_one_contact_by_hand():
+    """A wheel that nothing else moves: p is what lies between the law and its tangent."""
+    load, depth = np.array([8e4]), np.array([1e-4])
+    stretch = -3e-5  # pressed 30 per cent deeper
+    k = 1.5 * load / depth
+    law = load * ((depth - stretch) / depth) ** 1.5
+    # The force follows p alone: carried = known - answer p.
+    more = law - load + k * stretch
+    answer = np.array([[-1.0]])
+    found = pressing(-(law - more), answer, load, depth, np.zeros(1))
+    assert found == pytest.approx(more, rel=1e-9)
+
+
+def test_a_contact_that_is_pulled_carries_nothing():
+    load, depth = np.array([8e4, 8e4]), np.array([1e-4, 1e-4])
+    # Nearly rigid wheels: the linear contact would pull by 100 kN.
+    answer = -0.9 * np.eye(2)
+    linear = np.array([1e5, -8e4])
+    p = pressing(linear, answer, load, depth, np.zeros(2))
+    carried = -(linear + answer @ p)
+    assert abs(carried[0]) < 1e-6 and carried[1] == pytest.approx(8e4)
