@@ -19,12 +19,13 @@ from ..results import Crossing
 from ..settings import check
 from ..tracks import Harmonic, Track
 from ..trains import AnyTrain, AxleTrain, Train
+from ..vehicles import Body, Spring, Vehicle
 from .published import DAMPING
 from .references import FORCE, SimpleBeam, car_in_plane, force_beam, yang_yau
 
 __all__ = [
     "CAR_MODES", "WAVE", "ConvergenceRow", "convergence_with_modes", "deck_of", "quietly",
-    "run_car", "run_force", "run_standing_car", "run_yang_yau",
+    "run_car", "run_force", "run_rose", "run_standing_car", "run_yang_yau",
 ]  # fmt: skip
 
 WAVE = 5e-3, 14.4
@@ -81,6 +82,20 @@ def run_yang_yau(modes: int = 5, time_step: float = 5e-4) -> Crossing:
     _, beam, speed = yang_yau()
     train, deck = Train(sprung_mass("sprung mass", 5750.0, 1595e3)), deck_of(beam, modes)
     return quietly(train, deck, speed=speed, time_step=time_step, tail=0.1, tolerance=1e-10)
+
+
+def run_rose(modes: int = 20, time_step: float = 2e-4) -> Crossing:
+    """Cross a beam of 50 m with a wheel on its contact that carries a mass; see `ROSE`."""
+    wheel = Body("wheel", 5750.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.4), ("z",))
+    mass = Body("mass", 3000.0, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), ("z",))
+    springs = (
+        Spring("mass", "wheel", (0.0, 0.0, 0.7), (0.0, 1595e5), (0.0, 1000.0)),
+        Spring("wheel", "rail", (0.0, 0.0, 0.0), (0.0, 1.0 / 9.1e-8), (0.0, 0.0)),
+    )
+    car = Vehicle("wheel and mass", (mass, wheel), springs, 10.0)
+    deck = deck_of(SimpleBeam(50.0, 2303.0, 2.87e9 * 2.90), modes)
+    options = {"speed": 100.0 / 3.6, "lead_in": 0.0, "tail": 0.1}
+    return quietly(Train(car), deck, interaction="direct", time_step=time_step, **options)
 
 
 def run_car(speed: float, modes: int = CAR_MODES, time_step: float = 1e-3) -> Crossing:

@@ -17,7 +17,7 @@ from .crossings import (
     run_force,
     run_yang_yau,
 )
-from .moving_cars import car_rows, sprung_mass_rows, standing_car_rows
+from .moving_cars import car_rows, rose_rows, sprung_mass_rows, standing_car_rows
 from .moving_forces import axle_train_rows, moving_force_rows
 from .rows import Layout, Row
 
@@ -37,6 +37,7 @@ def cases() -> tuple[Row, ...]:
         *moving_force_rows(),
         *sprung_mass_rows(),
         *car_rows(),
+        *rose_rows(),
         *axle_train_rows(),
         *standing_car_rows(),
         *two_span_rows(),
