@@ -15,7 +15,7 @@ WHEEL = HertzContact()
 
 
 def test_equal_radii_are_a_sphere_on_a_plane():
-    """Crossed cylinders of one radius touch in a circle: P = 4/3 E* sqrt(R) d^1.5 (Johnson 4.23)."""
+    """Crossed cylinders of one radius touch in a circle: P = 4/3 E* sqrt(R) d^1.5 (Johnson 4.2)."""
     contact = HertzContact(0.46, 0.46, 210e9, 0.3)
     e_star = 210e9 / (2 * (1 - 0.09))
     assert contact.axis_ratio == 1.0

@@ -2,6 +2,7 @@
 
 import copy
 
+import numpy as np
 import pytest
 
 import railbridge as rb
@@ -214,24 +215,119 @@ def test_a_car_s_table_needs_names_values_and_units_only(tmp_path, separator):
         assert found.length == usual.length == 22.5
 
 
-@pytest.mark.parametrize("name", ["wheelset_mass", "static_wheelset_mass"])
-def test_wheelsets_of_a_car_s_table_weigh_on_the_rail(tmp_path, name):
+def test_static_wheelsets_of_a_car_s_table_weigh_on_the_rail(tmp_path):
     usual = rb.vehicle("xia2000")
-    found = rb.vehicle(car_table(tmp_path, **{name: ("1.78", "t")}))
-    assert found.static_wheelset_mass == 1780.0
+    found = rb.vehicle(car_table(tmp_path, static_wheelset_mass=("1.78", "t")))
+    assert found.static_wheelset_mass == 1780.0 and found.wheelsets == ()
     assert found.weight == pytest.approx(usual.weight + 4 * 1780.0 * 9.81)
     more = [
         b.static_load - a.static_load for a, b in zip(usual.contacts, found.contacts, strict=True)
     ]
     assert more == pytest.approx([1780.0 * 9.81 / 2] * 8)
     assert found.modes().frequencies_hz == pytest.approx(usual.modes().frequencies_hz)
-    both = car_table(tmp_path, wheelset_mass=("1", "t"), static_wheelset_mass=("1", "t"))
-    with pytest.raises(InputError, match="row static_wheelset_mass: appears more than once"):
-        rb.vehicle(both)
-    with pytest.raises(
-        InputError, match="wheelset_mass = -1.0: must be a finite number at least 0"
-    ):
-        rb.vehicle(car_table(tmp_path, **{name: ("-1", "kg")}))
+    with pytest.raises(InputError, match="wheelset_mass = -1.0: must be a finite number at least"):
+        rb.vehicle(car_table(tmp_path, static_wheelset_mass=("-1", "kg")))
+
+
+def test_wheelsets_of_a_car_s_table_are_bodies_on_contact_springs(tmp_path):
+    rows = {
+        "wheelset_mass": ("1.78", "t"), "wheelset_roll_inertia": ("1.0", "t m2"),
+        "gauge": ("1500", "mm"), "contact_stiffness": ("1400", "MN/m"),
+    }  # fmt: skip
+    found = rb.vehicle(car_table(tmp_path, **rows))
+    assert [b.name for b in found.wheelsets] == [
+        "front wheelset 1", "front wheelset 2", "rear wheelset 1", "rear wheelset 2",
+    ]  # fmt: skip
+    assert {b.mass for b in found.wheelsets} == {1780.0}
+    assert {b.inertia for b in found.wheelsets} == {(1000.0, 0.0, 0.0)}
+    assert {b.freedoms for b in found.wheelsets} == {("y", "z", "roll")}
+    assert {abs(c.y) for c in found.contacts} == {0.75} and found.static_wheelset_mass == 0.0
+    assert found.contact_stiffness[:, 1] == pytest.approx(1.4e9)
+    static = rb.vehicle(car_table(tmp_path, static_wheelset_mass=("1.78", "t")))
+    loads = [c.static_load for c in static.contacts]
+    assert [c.static_load for c in found.contacts] == pytest.approx(loads)
+    assert found.weight == pytest.approx(static.weight)
+    # Steel wheels on steel rails where nothing is said of the contact: by Hertz.
+    rows = {name: rows[name] for name in ("wheelset_mass", "wheelset_roll_inertia")}
+    hertz = rb.vehicle(car_table(tmp_path, **rows)).contact_stiffness
+    assert hertz[:, 1] == pytest.approx(1.33739e9 * np.cbrt(np.array(loads) / 80e3), rel=1e-6)
+    assert hertz[:, 0] == pytest.approx(1.4 / 1.7 * hertz[:, 1])
+    massless = rb.vehicle(car_table(tmp_path, wheelset_mass=("0", "kg")))
+    assert massless.springs == rb.vehicle("xia2000").springs
+
+
+@pytest.mark.parametrize(
+    ("rows", "says"),
+    [
+        (
+            {"wheelset_mass": ("1", "t"), "static_wheelset_mass": ("1", "t")},
+            "wheelset_mass = 1000.0: static_wheelset_mass is given too, never both",
+        ),
+        ({"gauge": ("1.5", "m")}, "gauge = 1.5: has no meaning without wheelset_mass"),
+        (
+            {"primary_longitudinal_stiffness": ("10", "MN/m")},
+            "primary_longitudinal_stiffness = 10000000.0: has no meaning without wheelset_mass",
+        ),
+        ({"wheelset_mass": ("1", "t")}, "wheelset_roll_inertia: is missing"),
+        ({"wheelset_mas": ("1", "t")}, "row wheelset_mas: unknown parameter. Did you mean"),
+        (
+            {"wheelset_mass": ("1", "t"), "gauge": ("0", "m")},
+            "gauge = 0.0: must be a finite number above 0 and at most 5 m",
+        ),
+        (
+            {"wheelset_mass": ("1", "t"), "contact_stiffness": ("10", "N/m")},
+            "contact_stiffness = 10.0: must be a finite number at least 1000000 and",
+        ),
+    ],
+)
+def test_wheelsets_that_cannot_be_are_refused_by_their_rows(tmp_path, rows, says):
+    with pytest.raises(InputError) as refused:
+        rb.vehicle(car_table(tmp_path, **rows))
+    assert says in str(refused.value)
+
+
+ROLLING = {"wheelset_mass": ("1.8", "t"), "wheelset_roll_inertia": ("1", "t m2")}
+
+
+@pytest.mark.parametrize(
+    ("rows", "says"),
+    [
+        (
+            {"contact_stiffness": ("1e9", "N/m"), "wheel_radius": ("0.5", "m")},
+            "wheel_radius = 0.5: contact_stiffness is given too, never both",
+        ),
+        (
+            {"wheelset_yaw_inertia": ("1", "t m2")},
+            "wheelset_yaw_inertia = 1000.0: nothing holds the wheelset in yaw",
+        ),
+        (
+            {"primary_longitudinal_stiffness": ("1e7", "N/m")},
+            "wheelset_yaw_inertia: is missing",
+        ),
+        (
+            {"primary_longitudinal_damping": ("1e4", "N s/m")},
+            "primary_longitudinal_damping = 10000.0: needs longitudinal_stiffness",
+        ),
+    ],
+)
+def test_parts_of_wheelsets_that_do_not_go_together_are_refused(tmp_path, rows, says):
+    with pytest.raises(InputError) as refused:
+        rb.vehicle(car_table(tmp_path, **ROLLING, **rows))
+    assert says in str(refused.value)
+
+
+def test_wheelsets_held_along_the_track_yaw(tmp_path):
+    rows = {
+        "wheelset_yaw_inertia": ("1", "t m2"), "primary_longitudinal_stiffness": ("10", "MN/m"),
+        "secondary_longitudinal_stiffness": ("0.2", "MN/m"),
+    }  # fmt: skip
+    found = rb.vehicle(car_table(tmp_path, **ROLLING, **rows))
+    assert {b.freedoms for b in found.wheelsets} == {("y", "z", "roll", "yaw")}
+    along = {(s.to, s.longitudinal_stiffness) for s in found.springs if s.from_ == "car"}
+    assert along == {("front bogie", 2e5), ("rear bogie", 2e5)}
+    # The two wheelsets of a bogie yaw against each other; the bogie stands still between.
+    yaws = np.sqrt(2 * 1e7 * 0.98**2 / 1000.0) / (2 * np.pi)
+    assert np.sum(np.abs(found.modes().frequencies_hz / yaws - 1) < 1e-8) == 2
 
 
 def test_a_car_s_length_may_be_left_out(tmp_path):
