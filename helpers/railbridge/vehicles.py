@@ -377,6 +377,16 @@ class Vehicle:
         found = [body for body in self.bodies if body.name in self._hangs_in]
         return tuple(sorted(found, key=lambda b: -b.position[0]))
 
+    @property
+    def contact_frequency(self) -> float:
+        """The highest frequency of a wheelset bouncing on its contacts alone, Hz; 0 without any."""
+        held = dict.fromkeys((body.name for body in self.wheelsets), 0.0)
+        for contact, stiffness in zip(self.contacts, self.contact_stiffness[:, 1], strict=True):
+            if contact.body in held:
+                held[contact.body] += stiffness
+        squares = [held[body.name] / body.mass for body in self.wheelsets]
+        return float(np.sqrt(max(squares, default=0.0)) / (2 * np.pi))
+
     @cached_property
     def _hangs_in(self) -> dict[str, str]:
         """The body in which every wheelset hangs, by name; the wheelset itself if it is several."""

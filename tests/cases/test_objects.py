@@ -356,3 +356,161 @@ def test_a_car_in_other_units_is_the_same_car(tmp_path):
     found = rb.vehicle(car_table(tmp_path, drop=tuple(other), **written))
     assert found.modes().frequencies_hz == pytest.approx(usual.modes().frequencies_hz, rel=1e-12)
     assert found.damping_matrix == pytest.approx(usual.damping_matrix)
+
+
+# ---- wheelsets, anti-roll bars and more in vehicle files
+
+COACH = """
+length = 20.0
+[[body]]
+name = "car"
+mass = 30e3
+inertia = [4e4, 1e6, 1e6]
+position = [0.0, 0.0, 1.8]
+freedoms = "y z roll pitch yaw"
+[[wheelset]]
+name = "front"
+x = 6.0
+mass = 1500.0
+roll_inertia = 900.0
+yaw_inertia = 1000.0
+[[wheelset]]
+name = "rear"
+x = -6.0
+mass = 1500.0
+roll_inertia = 900.0
+yaw_inertia = 1000.0
+contact_stiffness = [1.0e9, 1.2e9]
+height = 0.5
+"""
+for _place, _name in ((6.0, "front"), (-6.0, "rear")):
+    for _y in (1.0, -1.0):
+        COACH += f"""
+[[spring]]
+from = "car"
+to = "{_name}"
+at = [{_place}, {_y}, 0.8]
+stiffness = [8e5, 9e5]
+damping = [2e4, 3e4]
+longitudinal_stiffness = 5e6
+longitudinal_damping = 1e4
+series_stiffness = [0.0, 4e6]
+"""
+COACH += """
+[[anti_roll_bar]]
+from = "car"
+to = "front"
+stiffness = 1e6
+"""
+
+
+def coach(tmp_path, *changes):
+    text = COACH
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    path = tmp_path / "coach.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_vehicle_file_may_have_wheelsets_and_every_part(tmp_path):
+    car = rb.vehicle(coach(tmp_path))
+    assert [b.name for b in car.wheelsets] == ["front", "rear"]
+    assert car.wheelsets[0].position == (6.0, 0.0, 0.46)
+    assert car.wheelsets[1].position == (-6.0, 0.0, 0.5)
+    assert car.wheelsets[0].freedoms == ("y", "z", "roll", "yaw")
+    load = (30e3 / 4 + 1500 / 2) * 9.81
+    # The springs along the track resist what little the car pitches on unequal contacts.
+    assert [c.static_load for c in car.contacts] == pytest.approx([load] * 4, rel=1e-5)
+    assert [c.y for c in car.contacts] == [0.75, -0.75] * 2
+    hertz = 1.33739e9 * np.cbrt(load / 80e3)
+    expected = [[1.4 / 1.7 * hertz, hertz]] * 2 + [[1.0e9, 1.2e9]] * 2
+    assert car.contact_stiffness == pytest.approx(np.array(expected), rel=1e-6)
+    assert car.anti_roll_bars == (rb.AntiRollBar("car", "front", 1e6),)
+    held = {(s.longitudinal_stiffness, s.series_stiffness) for s in car.springs if not s.on_rail}
+    assert held == {(5e6, (0.0, 4e6))}
+    case = {**rb.case("paper").content, "train": {"vehicle": str(coach(tmp_path)), "cars": 2}}
+    assert len(rb.Case(case).train.wheels) == 8
+    small = rb.vehicle(coach(tmp_path, ("mass = 1500.0", "mass = 1500.0\nwheel_radius = 0.42")))
+    assert small.wheelsets[0].position[2] == 0.42
+
+
+def test_wheelsets_in_the_plane_have_one_contact_each(tmp_path):
+    path = tmp_path / "wagon.toml"
+    path.write_text(
+        """
+        [[body]]
+        name = "car"
+        mass = 20e3
+        inertia = [0.0, 2e5, 0.0]
+        position = [0.0, 0.0, 1.5]
+        freedoms = ["z", "pitch"]
+        """
+        + "".join(
+            f"""
+            [[wheelset]]
+            name = "{name}"
+            x = {x}
+            mass = 1200.0
+            gauge = 0.0
+            contact_stiffness = [0.0, 1.3e9]
+            [[spring]]
+            from = "car"
+            to = "{name}"
+            at = [{x}, 0.0, 0.8]
+            stiffness = [0.0, 1.5e6]
+            """
+            for name, x in (("front", 4.0), ("rear", -4.0))
+        ),
+        encoding="utf-8",
+    )
+    car = rb.vehicle(path)
+    assert car.labels == ("car z", "car pitch", "front z", "rear z")
+    assert car.contact_stiffness.tolist() == [[0.0, 2.6e9]] * 2
+    assert [c.carries for c in car.contacts] == ["car", "car"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        (
+            "length",
+            "static_wheelset_mass = 1.0\nlength",
+            "static_wheelset_mass = 1.0: the wheelsets",
+        ),
+        ('to = "front"', 'to = "frnt"', "springs[1].to = 'frnt': must be one of car, front, rear"),
+        ("x = 6.0", "x = 6.0\ngage = 1.5", "wheelset[1].gage: unknown key. Did you mean 'gauge'?"),
+        ("roll_inertia = 900.0\n", "", "wheelset[1].roll_inertia: is needed"),
+        (
+            "mass = 1500.0",
+            "mass = -1.0",
+            "wheelset[1].mass = -1.0: must be a finite number above 0",
+        ),
+        (
+            "height = 0.5",
+            "wheel_radius = 0.4",
+            "wheelset[2].wheel_radius = 0.4: contact_stiffness is given too, never both",
+        ),
+        ("1.2e9]", "1.2e5]", "wheelset[2].contact_stiffness[2] = 120000.0: must be a finite"),
+        ('name = "rear"', 'name = "front"', "wheelset[1].name = 'front': must be unique"),
+        ("longitudinal_stiffness = 5e6", "", "front: yaw"),
+        ("= 1e6\n", "= -1e6\n", "anti_roll_bar[1].stiffness = -1000000.0: must be"),
+        ('to = "front"\nstiffness = 1e6', 'to = "rail"\nstiffness = 1e6', "anti_roll_bar[1].to"),
+        ("[0.0, 4e6]", "[1.0, -4e6]", "spring[1].series_stiffness[2] = -4000000.0: must be"),
+        ("[[wheelset]]", "[wheelset]", "wheelset"),
+    ],
+)
+def test_parts_of_vehicle_files_that_cannot_be_are_named(tmp_path, old, new, says):
+    if "yaw" in says:
+        path = coach(tmp_path, *[(old, new)] * 4)
+    elif new == "[wheelset]":
+        path = tmp_path / "coach.toml"
+        whole = COACH.split("[[wheelset]]")
+        path.write_text(whole[0] + "[wheelset]" + whole[1] + whole[2][whole[2].index("[["):],
+                        encoding="utf-8")  # fmt: skip
+    else:
+        path = coach(tmp_path, (old, new))
+    with pytest.raises(InputError) as refused:
+        rb.vehicle(path)
+    assert says in str(refused.value)
