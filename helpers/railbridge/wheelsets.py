@@ -59,9 +59,11 @@ class Wheelset:
         Of its centre above the rail, m; default 0.46, or wheel_radius if that is given.
     contact_stiffness : tuple of 2 floats, optional
         Lateral and vertical stiffness of the contact, N/m per wheel. Or give radii and material.
-    wheel_radius, rail_head_radius : float, optional
-        m, of the rolling circle and of the top of the rail; default 0.46 and 0.3. By them the
-        contact is Hertz's, straight at the static load of the wheel, and laterally Mindlin's.
+    wheel_radius : float, optional
+        Of the rolling circle, m; default 0.46. From the radii and the material follows the vertical
+        stiffness by Hertz, at the static load of the wheel, and the lateral one by Mindlin.
+    rail_head_radius : float, optional
+        Of the top of the rail's section, m; default 0.3.
     contact_modulus : float, optional
         E of wheel and rail, Pa; default 2.1e11.
     contact_poisson : float, optional

@@ -269,9 +269,7 @@ def _frame_views(axes: Sequence[Axes], outline: VehicleOutline, below: float, ro
         ax.set_title(VIEW_NAMES[view], loc="left", fontsize="small")
 
 
-def _dimension(
-    ax: Axes, a: float, b: float, height: float, text: str, below: float = 0.08
-) -> None:
+def _dimension(ax: Axes, a: float, b: float, height: float, text: str, below: float = 0.08) -> None:
     """Draw a dimension line from a to b, its text so far below (m)."""
     arrow = {"arrowstyle": "<->", "lw": 0.8, "color": "k", "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", (a, height), (b, height), arrowprops=arrow)
