@@ -27,8 +27,9 @@ def drawn(seed):
     car = rb.planar_car(CAR) if plane else CAR
     wheeled = bool(rng.random() < 0.5)
     if wheeled:
-        contact = 10 ** rng.uniform(8.3, 9.5)
-        car = rb.with_wheelsets(car, mass=rng.uniform(200.0, 2500.0), contact_stiffness=contact)
+        mass, contact = rng.uniform(200.0, 2500.0), 10 ** rng.uniform(8.3, 9.5)
+        roll = {} if plane else {"roll_inertia": 0.4 * mass}
+        car = rb.with_wheelsets(car, mass=mass, contact_stiffness=contact, **roll)
     train = rb.Train(car, cars=int(rng.integers(1, 5)), car_spacing=rng.uniform(22.0, 25.0))
     loads = rng.choice(["wheels", "bogies"] if wheeled else ["wheels", "bogies", "condensed"])
     options = {

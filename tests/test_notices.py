@@ -101,6 +101,46 @@ def test_a_coarse_step_is_told_of_and_the_step_that_would_do():
     assert said(fine) == []
 
 
+def test_wheelsets_ask_for_a_step_of_their_contacts_and_say_where_it_is_coarse():
+    """At 1 ms a wheelset of 195 Hz misses its closed form by the share that is told, 12 %."""
+    car = rb.with_wheelsets(CAR, mass=1800.0, roll_inertia=1000.0)
+    track = rb.Track(rb.Harmonic(5e-4, wavelength=2.0))
+    exact = abs(rb.steady_forces(car, track, 40.0)[0, 1])
+
+    def missed(**options):
+        run = rb.cross(
+            rb.Train(car), DECK, track, speed=40.0, interaction="rigid", lead_in=300.0, **options
+        )
+        force = run.wheel_forces[0, 1, : len(run.time) // 2]
+        return (force.max() - force.min()) / 2 / exact - 1, run
+
+    share, run = missed(time_step=1e-3)
+    (text,) = said(run)
+    assert text.startswith("time_step = 0.001 s is coarse for wheelsets that bounce on their")
+    assert "at 195 Hz" in text and "off by some 12 %" in text
+    assert share == pytest.approx(-0.12, abs=0.03)
+    most = float(text.split("At most ")[1].split(" s")[0])
+    assert said(missed(time_step=0.99 * most)[1]) == []
+    share, run = missed()
+    assert (
+        said(run) == [] and run.settings.time_step < 3e-4 and share == pytest.approx(0, abs=0.012)
+    )
+
+
+def test_rails_that_differ_sideways_are_doubted_below_wheelsets():
+    lateral = rb.Rails(left=rb.Harmonic(1e-3, wavelength=9.0), right=rb.Level())
+    rolling = rb.with_wheelsets(CAR, mass=1800.0, roll_inertia=1000.0)
+    options = {"speed": 30.0, "interaction": "rigid", "lead_in": 0.0}
+    word = "hold the rails apart"
+    for car, track, told in [
+        (rolling, rb.Track(lateral=lateral), True),
+        (CAR, rb.Track(lateral=lateral), False),
+        (rolling, rb.Track(lateral=rb.Harmonic(1e-3, wavelength=9.0)), False),
+    ]:
+        run = rb.cross(rb.Train(car), DECK, track, **options)
+        assert any(word in text for text in said(run)) == told
+
+
 def test_ends_that_move_spoil_accelerations_and_that_is_said():
     soft = tuple(rb.Bearing(x, ("y", "roll"), stiffness={"z": 2e9}) for x in (0.0, 30.0))
     deck = rb.Beam("soft", (30.0,), 10e3, 5e10, bearings=soft).deck(damping=0.02)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from forcebased import by_forces
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -456,3 +457,145 @@ def test_a_frequency_that_is_none_is_refused_with_its_unit():
     for ask in (on_one_spring().transfer, on_one_spring().motion):
         with pytest.raises(rb.InputError, match=r"^frequency_hz.* in Hz"):
             ask("fast")
+
+
+# ---- anti-roll bars, springs along the track, dampers in series with a spring
+
+
+def on_maxwell(mass=5e3, k=1.2e6, c=3e4, ks=4e6, top=2e4, kc=3e6):
+    """A mass on a spring with a damper that acts through another, on a frame on the rail."""
+    bodies = (
+        Body("mass", mass, (0.0, 0.0, 0.0), (0.0, 0.0, 2.0), ("z",)),
+        Body("frame", top, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), ("z",)),
+    )
+    springs = (
+        Spring("mass", "frame", (0.0, 0.0, 1.5), (0.0, k), (0.0, c), series_stiffness=(0.0, ks)),
+        Spring("frame", "rail", (0.0, 0.0, 0.0), (0.0, kc), (0.0, 1e4)),
+    )
+    return Vehicle("maxwell", bodies, springs)
+
+
+@pytest.mark.parametrize("frequency", [0.0, 0.3, 2.0, 9.0, 60.0])
+def test_a_damper_through_a_spring_in_closed_form(frequency):
+    mass, k, c, ks, top, kc = 5e3, 1.2e6, 3e4, 4e6, 2e4, 3e6
+    s = 2j * np.pi * frequency
+    z = k + ks * c * s / (ks + c * s)
+    above = mass * s**2 * z / (mass * s**2 + z)
+    contact = kc + 1e4 * s
+    whole = top * s**2 + above
+    expected = -contact * whole / (whole + contact)
+    car = on_maxwell()
+    assert car.transfer(frequency)[0, 1, 0, 1] == pytest.approx(expected, rel=1e-9, abs=1e-6)
+    frame = contact / (whole + contact)
+    moved = z / (mass * s**2 + z) * frame
+    assert car.motion(frequency)[:, 0, 1] == pytest.approx([moved, frame], rel=1e-9)
+
+
+def test_a_damper_through_a_stiff_spring_acts_straight_and_through_a_soft_one_not_at_all():
+    straight = replace(on_maxwell().springs[0], series_stiffness=None)
+    none = replace(straight, damping=(0.0, 0.0))
+    car = on_maxwell()
+    for spring, ks in ((straight, 1e12), (none, 1e-2)):
+        other = replace(car, springs=(spring, car.springs[1]))
+        assert on_maxwell(ks=ks).transfer(2.0) == pytest.approx(other.transfer(2.0), rel=1e-5)
+
+
+def test_poles_of_a_damper_through_a_spring_are_the_roots_of_its_polynomial():
+    """Both masses and the damper's force: (m s2 + z)(M s2 + z + kc + cc s) = z2, times ks + c s."""
+    mass, k, c, ks, top, kc = 5e3, 1.2e6, 3e4, 4e6, 2e4, 3e6
+    P = np.polynomial.Polynomial
+    through = P([k * ks, (k + ks) * c])  # z (ks + c s)
+    series, s2 = P([ks, c]), P([0, 0, 1])
+    upper, lower = mass * s2 * series + through, (top * s2 + P([kc, 1e4])) * series + through
+    whole = (upper * lower - through**2) // series
+    roots = whole.roots()
+    modes = on_maxwell().damped_modes()
+    kept = roots[roots.imag >= -1e-9]
+    kept = kept[np.argsort(np.abs(kept))]
+    assert len(kept) == 3  # two that swing and one that creeps
+    assert modes.frequencies_hz == pytest.approx(np.abs(kept) / 2 / np.pi, rel=1e-9)
+    assert modes.damping_ratios == pytest.approx(-kept.real / np.abs(kept), rel=1e-8)
+    assert modes.shapes.shape == (2, 3) and len(modes.names) == 3
+    assert len(on_maxwell().modes().frequencies_hz) == 2
+
+
+def with_everything():
+    """A small car on one bogie with a part of every kind."""
+    bodies = (
+        Body("car", 2e4, (2e4, 8e4, 8e4), (0.1, 0.0, 1.7)),
+        Body("bogie", 3e3, (1.5e3, 3e3, 4e3), (0.0, 0.0, 0.7)),
+    )
+    springs = [
+        Spring("car", "bogie", (0.0, y, 1.1), (3e5, 6e5), (2e4, 3e4), 2e5, 5e3, (2e6, 3e6))
+        for y in (1.0, -1.0)
+    ] + [Spring("car", "bogie", (x, 0.0, 1.0), (1e5, 4e5), (1e4, 2e4)) for x in (2.0, -2.0)]
+    primary = [
+        Spring("bogie", "rail", (x, y, 0.3), (4e6, 1.5e6), (1e4, 2e4))
+        for x in (1.3, -1.3)
+        for y in (1.0, -1.0)
+    ]
+    bars = (rb.AntiRollBar("car", "bogie", 8e5, 6e3),)
+    car = Vehicle("all", bodies, (*springs, *primary), 10.0, anti_roll_bars=bars)
+    return rb.with_wheelsets(
+        car, mass=1500.0, roll_inertia=800.0, yaw_inertia=900.0, height=0.46, gauge=1.5,
+        contact_stiffness=2e7, longitudinal_stiffness=5e6, longitudinal_damping=1e4,
+    )  # fmt: skip
+
+
+def test_a_vehicle_with_every_part_against_an_ode_of_its_own():
+    """`forcebased` pushes every body by every spring, without rows or matrices."""
+    car, h = with_everything(), 5e-4
+    t = h * np.arange(1601)
+    amplitude = 1e-3 * np.random.default_rng(3).normal(size=(4, 2))
+
+    def rail(time):  # smooth from rest, so that sampling costs little
+        return amplitude * (np.sin(2 * np.pi * 3.0 * time) ** 3 + time * np.sin(40 * time))
+
+    k = car.contact_stiffness[..., None]
+    u = k * np.moveaxis(np.array([rail(time) for time in t]), 0, -1)
+    expected = by_forces(car, rail, t)
+    ours = car.sampled_motion(h)(u)[:, 0]
+    for label, row in zip(car.labels, ours, strict=True):
+        size = np.abs(expected.motion[label]).max()
+        assert size > 1e-5 and row == pytest.approx(expected.motion[label], abs=1e-4 * size), label
+    forces = car.sampled(h)(u)
+    assert forces == pytest.approx(expected.forces, abs=4e-3 * np.abs(expected.forces).max())
+    places = car.sampled_body(h)(u)
+    assert places == pytest.approx(expected.body, abs=2e-3 * np.abs(expected.body).max())
+
+
+@pytest.mark.parametrize("frequency", [1.1, 7.0])
+def test_with_every_part_transfer_is_the_limit_of_time_stepping(frequency):
+    car, h, n = with_everything(), 1e-4, 300_000
+    rng = np.random.default_rng(5)
+    amplitude = rng.normal(size=(4, 2)) + 1j * rng.normal(size=(4, 2))
+    wave = np.exp(2j * np.pi * frequency * h * np.arange(n))
+    u = ((car.contact_stiffness * amplitude)[..., None] * wave).imag
+    steady = np.tensordot(car.transfer(frequency), amplitude, 2)[..., None] * wave[-2000:]
+    force = car.sampled(h)(u)[..., -2000:]
+    assert force == pytest.approx(steady.imag, abs=2e-4 * np.abs(steady).max())
+    moved = np.tensordot(car.motion(frequency), amplitude, 2)[:, None] * wave[-2000:]
+    motion = car.sampled_motion(h)(u)[:, 0, -2000:]
+    assert motion == pytest.approx(moved.imag, abs=1e-5 * np.abs(moved).max())
+
+
+def test_with_every_part_the_plane_is_that_of_the_whole():
+    """Bounce and pitch of a car that is alike left and right are a car of their own."""
+    car, plane = with_everything(), planar_car(with_everything())
+    ways = np.array([[1, 1, 0, 0], [0, 0, 1, 1]])  # both wheels of an axle
+    whole = np.einsum("aw,wv,bv->ab", ways, car.transfer(6.0)[:, 1, :, 1], ways)
+    assert plane.transfer(6.0)[:, 1, :, 1] == pytest.approx(whole, rel=1e-9)
+    assert [c.static_load for c in plane.contacts] == pytest.approx(
+        [2 * c.static_load for c in car.contacts[::2]]
+    )
+
+
+def test_with_every_part_direct_solution_and_iteration_agree():
+    train = rb.Train(with_everything())
+    deck = rb.deck("viaduct36")
+    options = {"speed": 30.0, "time_step": 1e-3}
+    direct = rb.cross(train, deck, interaction="direct", **options)
+    iterated = rb.cross(train, deck, tolerance=1e-10, **options)
+    assert direct.wheel_forces == pytest.approx(
+        iterated.wheel_forces, abs=1e-6 * np.abs(direct.wheel_forces).max()
+    )

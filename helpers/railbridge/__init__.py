@@ -29,7 +29,8 @@ from .results import Crossing
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .tracks import FadeIn, Harmonic, Level, Notch, Rails, Table, Track
 from .trains import CONDENSED, AxleTrain, Passage, Train, steady_forces
-from .vehicles import Body, Spring, Vehicle
+from .vehicles import AntiRollBar, Body, Spring, Vehicle
+from .wheelsets import with_wheelsets
 
 __version__ = "0.1.0"
 
@@ -61,14 +62,14 @@ _MODULES = {
 }
 
 __all__ = [
-    "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "CONDENSED", "Case", "Crossing",
-    "Deck", "FadeIn", "Harmonic", "History", "InputError", "InputWarning", "Level", "LoadModel",
-    "NotConvergedError", "Notch", "Pads", "Passage", "Rails", "ResultWarning", "Spectrum", "Spring",
-    "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box", "car_parameters", "case",
-    "check", "compared", "cross", "data_root", "deck", "deck_from_table", "deviation_percent",
-    "hslm_b", "load_model", "open_study", "planar_car", "rayleigh", "rayleigh_ratio", "remarks",
-    "speed_envelope", "sprung_mass", "steady_forces", "summarize", "sweep", "train", "train_list",
-    "two_bogie_car", "varied_car", "vehicle",
+    "AntiRollBar", "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "CONDENSED", "Case",
+    "Crossing", "Deck", "FadeIn", "Harmonic", "History", "InputError", "InputWarning", "Level",
+    "LoadModel", "NotConvergedError", "Notch", "Pads", "Passage", "Rails", "ResultWarning",
+    "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box",
+    "car_parameters", "case", "check", "compared", "cross", "data_root", "deck", "deck_from_table",
+    "deviation_percent", "hslm_b", "load_model", "open_study", "planar_car", "rayleigh",
+    "rayleigh_ratio", "remarks", "speed_envelope", "sprung_mass", "steady_forces", "summarize",
+    "sweep", "train", "train_list", "two_bogie_car", "varied_car", "vehicle", "with_wheelsets",
 ]  # fmt: skip
 
 

@@ -7,7 +7,13 @@ import numpy as np
 from .errors import InputError, InputWarning, Remark, ResultWarning
 from .plausibility import doubts
 from .results import Crossing
-from .settings import COARSE_SAMPLES_PER_PERIOD, LEAD_IN_SECONDS, highest_frequency
+from .settings import (
+    COARSE_SAMPLES_PER_CONTACT,
+    COARSE_SAMPLES_PER_PERIOD,
+    LEAD_IN_SECONDS,
+    contact_frequency,
+    highest_frequency,
+)
 from .trains import steady_forces
 
 __all__ = ["remarks", "unsettled"]
@@ -28,6 +34,8 @@ def remarks(run: Crossing) -> tuple[Remark, ...]:
     found += _only_modes(run)
     found += _transient(run)
     found += _coarse(run)
+    found += _coarse_contact(run)
+    found += _apart(run)
     found += _not_settled(run)
     found += _solved_otherwise(run)
     found += _parted(run) if run.settings.contact == "hertz" else _pulling(run)
@@ -93,6 +101,34 @@ def _coarse(run: Crossing) -> list[Remark]:
         f"{1 / highest / COARSE_SAMPLES_PER_PERIOD:.2g} s, or fewer modes, would do."
     )
     return [ResultWarning("time_step", text)]
+
+
+def _coarse_contact(run: Crossing) -> list[Remark]:
+    frequency, step = contact_frequency(run.train), run.settings.time_step
+    if frequency * step * COARSE_SAMPLES_PER_CONTACT <= 1.0:
+        return []
+    percent = 100 * (2 * np.pi * frequency * step) ** 2 / 12
+    text = (
+        f"= {step:g} s is coarse for wheelsets that bounce on their contacts at {frequency:.3g} "
+        f"Hz: what their inertia adds to wheel forces is off by some {percent:.2g} %. At most "
+        f"{1 / frequency / COARSE_SAMPLES_PER_CONTACT:.2g} s would do."
+    )
+    return [ResultWarning("time_step", text)]
+
+
+def _apart(run: Crossing) -> list[Remark]:
+    """Doubt the lateral forces of wheelsets whose two rails move sideways differently."""
+    x = np.linspace(-run.settings.lead_in, run.deck.length, 401)
+    left, right = (run.track.rail("lateral", side).value(x) for side in ("left", "right"))
+    if np.array_equal(left, right):
+        return []
+    if not any(len(c.wheels) > 1 for v, _ in run.train.kinds() if v.wheelsets for c in v.axles):
+        return []
+    text = (
+        "differs left and right: wheelsets that do not slip hold the rails apart, so lateral wheel "
+        "forces of a pair are far too large; their sum is right."
+    )
+    return [ResultWarning("track.lateral", text)]
 
 
 def _not_settled(run: Crossing) -> list[Remark]:

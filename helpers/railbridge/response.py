@@ -40,7 +40,7 @@ from .errors import brief, number
 
 __all__ = [
     "LinearSystem", "SampledModes", "SampledResponse", "lagged", "moved_on", "oscillator",
-    "ramp_coefficients", "sampled_modes", "second_order_system",
+    "ramp_coefficients", "relaxing", "sampled_modes", "second_order_system",
 ]  # fmt: skip
 
 _WORST_CONDITION = 1e6
@@ -577,6 +577,42 @@ def second_order_system(
     return LinearSystem(
         a, np.vstack([np.zeros_like(force), inverse @ force]), np.asarray(output, dtype=float)
     )
+
+
+def relaxing(
+    system: LinearSystem,
+    mass: np.ndarray,
+    rows: np.ndarray,
+    stiffness: np.ndarray,
+    damping: np.ndarray,
+) -> LinearSystem:
+    """Add dampers that act through a spring (Maxwell) to a system of `second_order_system`.
+
+    Each is one more state, its force f: ``f' = k g.x' - (k/c) f``, and ``-g f`` acts on x.
+
+    Parameters
+    ----------
+    system : LinearSystem
+        With the state ``(x, x')``.
+    mass : ndarray, shape (n, n)
+    rows : ndarray, shape (m, n)
+        g, the stretch of each.
+    stiffness, damping : ndarray, shape (m,)
+        k of the spring, c of the damper; both above 0.
+
+    Returns
+    -------
+    LinearSystem
+        With the state ``(x, x', f)``; the same system if there are none.
+    """
+    m, n = rows.shape
+    if m == 0:
+        return system
+    pushes = np.vstack([np.zeros((n, m)), -np.linalg.solve(mass, rows.T)])
+    follows = np.hstack([np.zeros((m, n)), stiffness[:, None] * rows])
+    a = np.block([[system.a, pushes], [follows, -np.diag(stiffness / damping)]])
+    b = np.vstack([system.b, np.zeros((m, system.b.shape[1]))])
+    return LinearSystem(a, b, np.hstack([system.c, np.zeros((len(system.c), m))]))
 
 
 def oscillator(omega: float, ratio: float) -> LinearSystem:

@@ -15,14 +15,21 @@ from .tracks import Track
 from .trains import AnyTrain, AxleTrain, Passage
 
 __all__ = [
-    "COARSE_SAMPLES_PER_PERIOD", "LEAD_IN_SECONDS", "MEMORY_LIMIT", "Options", "Settings",
-    "bytes_needed", "check", "default_time_step", "highest_frequency", "refuse_bytes",
+    "COARSE_SAMPLES_PER_CONTACT", "COARSE_SAMPLES_PER_PERIOD", "LEAD_IN_SECONDS", "MEMORY_LIMIT",
+    "Options", "Settings", "bytes_needed", "check", "contact_frequency", "default_time_step",
+    "highest_frequency", "refuse_bytes",
 ]  # fmt: skip
 
 LEAD_IN_SECONDS = 7.5
 SAMPLES_PER_LENGTH = 10
 """Fewest samples per wavelength or notch."""
 SAMPLES_PER_DECK = 20
+SAMPLES_PER_CONTACT, COARSE_SAMPLES_PER_CONTACT = 18, 8
+"""Of a wheelset bouncing on its contacts, in a step that is chosen, and fewest without a remark.
+
+Between samples the rail is a chord; a spring k above a mass m takes that for a force that is
+(w h)^2 / 12 of the mass's inertia off, w^2 = k/m: 1 % and 5 % of what the wheelset adds.
+"""
 SAMPLES_PER_PERIOD = 8
 """Of the highest mode kept, in a step that is chosen: accelerations are then within 2 %."""
 COARSE_SAMPLES_PER_PERIOD = 3
@@ -63,8 +70,9 @@ class Options:
     track_offset : float or str
         Track centre line, m left of the deck axis, or the name of a track of the deck.
     time_step : float, optional
-        s; chosen if left out: at most 1 ms, a twentieth of the shortest wave or notch, and an
-        eighth of the period of the deck's highest mode.
+        s; chosen if left out: at most 1 ms, a twentieth of the shortest wave or notch, an eighth of
+        the period of the deck's highest mode, and an eighteenth of that of a wheelset with mass on
+        its contacts (0.3 ms).
     lead_in : float, optional
         m of irregular track before the deck; default 7.5 s of travel. 0: level track before the
         deck, the train at rest; wrong where the track then starts on the deck with a step (a phase
@@ -308,13 +316,20 @@ def highest_frequency(deck: Guideway) -> float:
     return float(deck.frequencies_hz[deck.damping_ratios < HEAVY].max(initial=0.0))
 
 
+def contact_frequency(train: AnyTrain) -> float:
+    """Return the highest frequency (Hz) of a train's wheelsets on their contacts; 0 without any."""
+    return max((vehicle.contact_frequency for vehicle, _ in train.kinds()), default=0.0)
+
+
 def default_time_step(train: AnyTrain, track: Track, speed: float, most: float = 1e-3) -> float:
     """Return the time step used when none is given, s.
 
-    At most 1 ms (or what is given for it) and a twentieth of the shortest wave or notch, and a
-    whole fraction of the time between cars, so that all cars meet the samples alike and are
-    computed together.
+    At most 1 ms (or what is given for it), a twentieth of the shortest wave or notch and an
+    eighteenth of the period of a wheelset on its contacts, and a whole fraction of the time between
+    cars, so that all cars meet the samples alike and are computed together.
     """
+    contact = SAMPLES_PER_CONTACT * contact_frequency(train)
+    most = most if most * contact <= 1.0 else 1.0 / contact
     most = min(most, _shortest(train, track) / speed / (2 * SAMPLES_PER_LENGTH))
     if len(train.formation) == 1:
         return most

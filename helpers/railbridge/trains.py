@@ -53,7 +53,7 @@ class Wheel:
     static_load : float
         N, down positive.
     body : str
-        What it carries ("front bogie").
+        Whose wheel it is ("front bogie"): that in which its wheelset hangs, if it has one.
     x : float
         m ahead of its car's centre.
     """
@@ -534,7 +534,7 @@ class Train(AnyTrain):
                     contact = vehicle.contacts[w]
                     side = "right" if contact.y < 0 else "left"
                     delay = centre - contact.x
-                    place = contact.y, side, contact.static_load, contact.body, contact.x
+                    place = contact.y, side, contact.static_load, contact.carries, contact.x
                     wheels.append(Wheel(number, w + 1, delay, *place))
                 placed.append(PlacedAxle(number, centre - axle.x, tuple(wheels)))
             notched = (

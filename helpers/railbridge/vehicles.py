@@ -8,9 +8,9 @@ the equations only as ``u = k r + c r'``:
 
     M x'' + C x' + K x = G^T u,      force on the deck = k g.x + c g.x' - u + static part.
 
-Axes: x forward, y left, z up; freedoms in the order y, z, roll, pitch, yaw. The origin of a vehicle
-is at rail level below its mid-length. What wheels feel and exert has the shape (wheels, 2, ...):
-lateral before vertical.
+A damper c that acts through a spring k carries the force f, a state of its own (Maxwell):
+``f' = k g.x' - (k/c) f``, and ``-g f`` goes to the right-hand side. What wheels feel and exert has
+the shape (wheels, 2, ...): lateral before vertical. Axes and freedoms: see `bodies`.
 """
 
 from __future__ import annotations
@@ -24,17 +24,16 @@ import numpy as np
 from scipy.linalg import eigh
 
 from . import errors
+from .bodies import FREEDOMS, INERTIA_AXIS, AntiRollBar, Body, Spring
 from .errors import InputError, Range, brief, check_fields, frozen, within
-from .response import LinearSystem, SampledResponse, second_order_system
+from .response import LinearSystem, SampledResponse, relaxing, second_order_system
 from .units import G
 
 __all__ = [
-    "FREEDOMS", "Axle", "Body", "Contact", "Modes", "Spring", "Vehicle", "WheelForces",
-    "WheelResponse",
+    "FREEDOMS", "AntiRollBar", "Axle", "Body", "Contact", "Modes", "Spring", "Vehicle",
+    "WheelForces", "WheelResponse",
 ]  # fmt: skip
 
-FREEDOMS = ("y", "z", "roll", "pitch", "yaw")
-_INERTIA_AXIS = {"roll": 0, "pitch": 1, "yaw": 2}
 _BESIDE = 1e-6
 """Wheels nearer than this along the track (m) are on one axle: more is no rounding of input."""
 
@@ -43,91 +42,26 @@ WheelResponse = Callable[[np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True)
-class Body:
-    """A rigid body.
-
-    Attributes
-    ----------
-    name : str
-        Its name, unique in the vehicle; not "rail".
-    mass : float
-        kg.
-    inertia : tuple of 3 floats
-        Mass moments of inertia in roll, pitch and yaw, kg m2. Only those of its freedoms count.
-    position : tuple of 3 floats
-        Centre of mass in the vehicle frame, m.
-    freedoms : tuple of str
-        Some of y, z, roll, pitch, yaw. One left out is held still in space: without z the rail does
-        not carry the weight.
-    """
-
-    name: str
-    mass: Annotated[float, Range(above=0.0, unit="kg")]
-    inertia: Annotated[tuple[float, float, float], Range(least=0.0, unit="kg m2")]
-    position: Annotated[tuple[float, float, float], Range(unit="m")]
-    freedoms: tuple[str, ...] = FREEDOMS
-
-    def __post_init__(self) -> None:
-        check_fields(self)
-        if self.name == "rail":
-            raise InputError("name", self.name, "must not be 'rail', which is no body")
-        given = self.freedoms
-        distinct = len(set(map(str, given))) if isinstance(given, (list, tuple)) else 0
-        if not distinct or distinct != len(given):
-            allowed = f"must list each of {' '.join(FREEDOMS)} at most once"
-            raise InputError("freedoms", given, allowed)
-        for freedom in given:
-            errors.choice("freedoms", freedom, FREEDOMS)
-            if freedom in _INERTIA_AXIS:
-                inertia = self.inertia[_INERTIA_AXIS[freedom]]
-                errors.number(f"inertia in {freedom}", inertia, above=0.0, unit="kg m2")
-        object.__setattr__(self, "freedoms", tuple(given))
-
-
-@dataclass(frozen=True)
-class Spring:
-    """A spring and damper between two bodies, or between a body and the rail.
-
-    Attributes
-    ----------
-    from_, to : str
-        Names of bodies; one of them may be "rail", which makes a wheel contact.
-    at : tuple of 3 floats
-        Where it stands in the vehicle frame, m; rigidly tied to both ends.
-    stiffness : tuple of 2 floats
-        Lateral and vertical, N/m.
-    damping : tuple of 2 floats
-        Lateral and vertical, N s/m.
-    """
-
-    from_: str
-    to: str
-    at: Annotated[tuple[float, float, float], Range(unit="m")]
-    stiffness: Annotated[tuple[float, float], Range(least=0.0, unit="N/m")]
-    damping: Annotated[tuple[float, float], Range(least=0.0, unit="N s/m")]
-
-    def __post_init__(self) -> None:
-        check_fields(self)
-        if self.from_ == self.to:
-            raise InputError("to", self.to, "must differ from the other end")
-        if max(*self.stiffness, *self.damping) == 0.0:
-            allowed = "spring and damper are both zero"
-            raise InputError("stiffness", list(self.stiffness), allowed, "Remove it")
-
-    @property
-    def on_rail(self) -> bool:
-        """Whether it makes a wheel contact."""
-        return "rail" in (self.from_, self.to)
-
-
-@dataclass(frozen=True)
 class Contact:
-    """A wheel: its body, its place in the vehicle frame (m), its static load (N, down positive)."""
+    """A wheel.
+
+    Attributes
+    ----------
+    body : str
+        The body that stands on it.
+    x, y : float
+        Its place in the vehicle frame, m.
+    static_load : float
+        N, down positive.
+    carries : str
+        The body whose wheel it is: of a wheelset the bogie in which it hangs, else `body`.
+    """
 
     body: str
     x: float
     y: float
     static_load: float
+    carries: str
 
 
 @dataclass(frozen=True)
@@ -201,10 +135,12 @@ class Vehicle:
         m over couplers; the default distance between cars. May be left out where trains are given
         their car spacing.
     static_wheelset_mass : float
-        kg of one wheelset, carried straight by the rail. Only its weight counts, not its inertia.
-        That matters once waves shake the car above its bounce, where the springs press little:
-        1800 kg under `xia2000`, wheels in phase, would change the force by -0.3 % at 1.389 Hz, by
-        -14 % at 2 Hz and by +64 % at 4.2 Hz.
+        kg of one wheelset, carried straight by the rail. Only its weight counts, not its inertia;
+        `with_wheelsets` makes bodies of it. That matters once waves shake the car above its bounce,
+        where the springs press little: 1800 kg under `xia2000`, wheels in phase, would change the
+        force by -0.3 % at 1.389 Hz, by -14 % at 2 Hz and by +64 % at 4.2 Hz.
+    anti_roll_bars : tuple of AntiRollBar
+        Between bodies that roll.
 
     Raises
     ------
@@ -220,6 +156,7 @@ class Vehicle:
     springs: tuple[Spring, ...]
     length: Annotated[float, Range(above=0.0, unit="m")] | None = None
     static_wheelset_mass: Annotated[float, Range(least=0.0, unit="kg")] = 0.0
+    anti_roll_bars: tuple[AntiRollBar, ...] = ()
     labels: tuple[str, ...] = field(init=False, default=())
 
     def __post_init__(self) -> None:
@@ -228,6 +165,8 @@ class Vehicle:
             check_fields(self)
             object.__setattr__(self, "bodies", errors.instances("bodies", self.bodies, Body))
             object.__setattr__(self, "springs", errors.instances("springs", self.springs, Spring))
+            bars = errors.instances("anti_roll_bars", self.anti_roll_bars, AntiRollBar)
+            object.__setattr__(self, "anti_roll_bars", bars)
             _refuse_wrong_ends(self)
             labels = tuple(
                 f"{b.name} {f}" for b in self.bodies for f in FREEDOMS if f in b.freedoms
@@ -245,49 +184,67 @@ class Vehicle:
         for body in self.bodies:
             for f in FREEDOMS:
                 if f in body.freedoms:
-                    rotates = f in _INERTIA_AXIS
-                    diagonal.append(body.inertia[_INERTIA_AXIS[f]] if rotates else body.mass)
+                    rotates = f in INERTIA_AXIS
+                    diagonal.append(body.inertia[INERTIA_AXIS[f]] if rotates else body.mass)
         return frozen(np.diag(diagonal).astype(float))
 
     def _point_rows(self, name: str, at: tuple[float, float, float]) -> np.ndarray:
-        """Lateral and vertical motion of a point tied to a body, as rows over the freedoms.
+        """Motion of a point tied to a body: lateral, vertical, along the track, shape (3, n).
 
-        Shape (2, n).
+        As rows over the freedoms. Along the track a body only turns: theta_y r_z - theta_z r_y.
         """
-        rows = np.zeros((2, len(self.labels)))
+        rows = np.zeros((3, len(self.labels)))
         for body in self.bodies:
             if body.name != name:
                 continue
             x, y, z = (p - c for p, c in zip(at, body.position, strict=True))
-            motion = {"y": (1, 0), "z": (0, 1), "roll": (-z, y), "pitch": (0, -x), "yaw": (x, 0)}
+            motion = {
+                "y": (1, 0, 0), "z": (0, 1, 0), "roll": (-z, y, 0), "pitch": (0, -x, z),
+                "yaw": (x, 0, -y),
+            }  # fmt: skip
             for f in body.freedoms:
                 rows[:, self.labels.index(f"{name} {f}")] = motion[f]
         return rows
 
     def _stretch_rows(self, spring: Spring) -> np.ndarray:
-        """Lateral and vertical stretch of a spring, as rows over the freedoms, shape (2, n)."""
+        """Stretch of a spring: lateral, vertical, along the track, shape (3, n)."""
         from_, to = (self._point_rows(end, spring.at) for end in (spring.from_, spring.to))
         # The body end counts positive, so that a contact's stretch is (body) - (rail).
         return from_ - to if spring.to == "rail" else to - from_
 
-    def _assembled(self, attribute: str) -> np.ndarray:
+    def _assembled(self, springs: str, bars: str) -> np.ndarray:
         total = np.zeros((len(self.labels),) * 2)
         for spring in self.springs:
             for value, row in zip(
-                getattr(spring, attribute), self._stretch_rows(spring), strict=True
+                getattr(spring, springs), self._stretch_rows(spring), strict=True
             ):
                 total += value * np.outer(row, row)
+        for bar in self.anti_roll_bars:
+            row = np.zeros(len(self.labels))
+            row[[self.labels.index(f"{end} roll") for end in (bar.from_, bar.to)]] = -1.0, 1.0
+            total += getattr(bar, bars) * np.outer(row, row)
         return frozen(total)
 
     @cached_property
     def stiffness_matrix(self) -> np.ndarray:
         """K, shape (n, n); N/m and N m. Without the gravity stiffness of the high body."""
-        return self._assembled("stiffness")
+        return self._assembled("stiffnesses", "stiffness")
 
     @cached_property
     def damping_matrix(self) -> np.ndarray:
-        """C, shape (n, n); N s/m and N m s."""
-        return self._assembled("damping")
+        """C, shape (n, n); N s/m and N m s. Without dampers in series with a spring."""
+        return self._assembled("straight_dampings", "damping")
+
+    @cached_property
+    def _in_series(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Dampers in series with a spring: stretch, shape (m, n), k (N/m) and c (N s/m)."""
+        found = [
+            (self._stretch_rows(spring)[direction], k, c)
+            for spring in self.springs
+            for direction, k, c in spring.series
+        ]
+        rows = np.array([row for row, _, _ in found]).reshape(-1, len(self.labels))
+        return frozen(rows), *(np.array([each[i] for each in found]) for i in (1, 2))
 
     # ---- wheels
 
@@ -346,7 +303,8 @@ class Vehicle:
                 spring = self._standing[1][wheel]
                 body = spring.to if spring.from_ == "rail" else spring.from_
                 load = -(self.contact_stiffness[wheel, 1] * stretch[wheel, 1])
-                result.append(Contact(body, axle.x, spring.at[1], float(load + own)))
+                place = axle.x, spring.at[1], float(load + own)
+                result.append(Contact(body, *place, self._hangs_in.get(body, body)))
         return tuple(result)
 
     @cached_property
@@ -355,7 +313,7 @@ class Vehicle:
 
         gamma: the stretch is ``gamma . q`` less the motion of the rail; lateral before vertical.
         """
-        return frozen(np.array([self._stretch_rows(s) for s in self._standing[1]]))
+        return frozen(np.array([self._stretch_rows(s)[:2] for s in self._standing[1]]))
 
     @cached_property
     def contact_stiffness(self) -> np.ndarray:
@@ -374,13 +332,15 @@ class Vehicle:
         """The vehicle with input ``k r + c r'`` and output ``k g.x + c g.x'``, both in N.
 
         Both are all contacts in one row, lateral before vertical. The force on the deck without its
-        static part is output minus input.
+        static part is output minus input. The state holds the freedoms, their rates, and the force
+        of every damper in series with a spring.
         """
         rows = self.contact_stretch.reshape(-1, len(self.labels))
         k, c = self.contact_stiffness.reshape(-1, 1), self.contact_damping.reshape(-1, 1)
         output = np.hstack([k * rows, c * rows])
         matrices = self.mass_matrix, self.damping_matrix, self.stiffness_matrix
-        return second_order_system(*matrices, rows.T, output)
+        plain = second_order_system(*matrices, rows.T, output)
+        return relaxing(plain, self.mass_matrix, *self._in_series)
 
     def sampled(self, time_step: float) -> WheelForces:
         """Return what gives the forces on the deck, without their static part, from ``k r + c r'``.
@@ -406,6 +366,45 @@ class Vehicle:
     def body(self) -> Body:
         """The car body: the heaviest one."""
         return max(self.bodies, key=lambda b: b.mass)
+
+    @property
+    def wheelsets(self) -> tuple[Body, ...]:
+        """The bodies that are wheelsets, front to back.
+
+        A wheelset stands on the wheels of one axle, does not pitch (it rolls), and hangs in another
+        body; the car body is none.
+        """
+        found = [body for body in self.bodies if body.name in self._hangs_in]
+        return tuple(sorted(found, key=lambda b: -b.position[0]))
+
+    @property
+    def contact_frequency(self) -> float:
+        """The highest frequency of a wheelset bouncing on its contacts alone, Hz; 0 without any."""
+        held = dict.fromkeys((body.name for body in self.wheelsets), 0.0)
+        for contact, stiffness in zip(self.contacts, self.contact_stiffness[:, 1], strict=True):
+            if contact.body in held:
+                held[contact.body] += stiffness
+        squares = [held[body.name] / body.mass for body in self.wheelsets]
+        return float(np.sqrt(max(squares, default=0.0)) / (2 * np.pi))
+
+    @cached_property
+    def _hangs_in(self) -> dict[str, str]:
+        """The body in which every wheelset hangs, by name; the wheelset itself if it is several."""
+        places: dict[str, list[float]] = {}
+        above: dict[str, set[str]] = {}
+        for spring in self.springs:
+            for low, high in ((spring.from_, spring.to), (spring.to, spring.from_)):
+                if high == "rail":
+                    places.setdefault(low, []).append(spring.at[0])
+                elif low != "rail":
+                    above.setdefault(low, set()).add(high)
+        rolling = (b.name for b in self.bodies if "pitch" not in b.freedoms and b != self.body)
+        result = {}
+        for name in rolling:
+            x = places.get(name)
+            if x and name in above and max(x) - min(x) <= _BESIDE:
+                result[name] = above[name].pop() if len(above[name]) == 1 else name
+        return result
 
     @property
     def car_bodies(self) -> tuple[Body, ...]:
@@ -452,10 +451,11 @@ class Vehicle:
         """
         places = self.body_places
         moving = np.vstack(
-            [self._point_rows(b.name, (x, 0.0, b.position[2])) for b, _, x in places]
+            [self._point_rows(b.name, (x, 0.0, b.position[2]))[:2] for b, _, x in places]
         )
         accelerations = np.linalg.solve(self.mass_matrix, moving.T).T
-        state = -accelerations @ np.hstack([self.stiffness_matrix, self.damping_matrix])
+        pushed = self.stiffness_matrix, self.damping_matrix, self._in_series[0].T
+        state = -accelerations @ np.hstack(pushed)
         respond = replace(self.system, c=state).sampled(time_step)
         # Zero where no spring of the body ends on the rail.
         direct = accelerations @ self.contact_stretch.reshape(-1, len(self.labels)).T
@@ -477,8 +477,8 @@ class Vehicle:
         time_step : float
             s.
         """
-        count = len(self.labels)
-        respond = replace(self.system, c=np.eye(count, 2 * count)).sampled(time_step)
+        moving = np.eye(len(self.labels), len(self.system.a))
+        respond = replace(self.system, c=moving).sampled(time_step)
 
         def motion(u: np.ndarray) -> np.ndarray:
             return respond(u.reshape(-1, u.shape[-1]))[:, None]
@@ -500,6 +500,8 @@ class Vehicle:
         """
         rows, s, impedance = self._at_frequency(frequency_hz)
         dynamic = self.mass_matrix * s**2 + self.damping_matrix * s + self.stiffness_matrix
+        stretch, k, c = self._in_series
+        dynamic = dynamic + stretch.T * (k * c * s / (k + c * s)) @ stretch
         motion = np.linalg.solve(dynamic, rows.T * impedance)
         return motion.reshape(len(rows.T), len(rows) // 2, 2)
 
@@ -530,7 +532,10 @@ class Vehicle:
     # ---- modes
 
     def modes(self) -> Modes:
-        """Return the natural modes (no damping), ascending (Table 2)."""
+        """Return the natural modes (no damping), ascending (Table 2).
+
+        Without the springs through which dampers act, too: they hold nothing at rest.
+        """
         values, shapes = eigh(self.stiffness_matrix, self.mass_matrix)
         frequencies = np.sqrt(np.clip(values, 0, None)) / (2 * np.pi)
         return Modes(frequencies, np.zeros(len(values)), shapes, self.labels, self._moving(shapes))
@@ -544,7 +549,7 @@ class Vehicle:
         """Return the damped modes: ``|s|/(2 pi)`` and ``-Re(s)/|s|`` of every eigenvalue.
 
         Of a pair the one with ``Im(s) >= 0``. An overdamped mode shows as two real roots, each with
-        ratio 1.
+        ratio 1; a damper in series with a spring adds a real root.
         """
         n = len(self.labels)
         poles, vectors = np.linalg.eig(self.system.a)
@@ -604,6 +609,14 @@ def _refuse_wrong_ends(vehicle: Vehicle) -> None:
         with within(f"springs[{i}]", {"from_": "from"}):
             errors.choice("from_", spring.from_, [*names, "rail"])
             errors.choice("to", spring.to, [*names, "rail"])
+    freedoms = {body.name: body.freedoms for body in vehicle.bodies}
+    for i, bar in enumerate(vehicle.anti_roll_bars, start=1):
+        with within(f"anti_roll_bars[{i}]", {"from_": "from"}):
+            for field, end in (("from_", bar.from_), ("to", bar.to)):
+                errors.choice(field, end, names)
+                if "roll" not in freedoms[end]:
+                    remedy = "Add roll to its freedoms, or leave the bar out"
+                    raise InputError(field, end, "does not roll", remedy)
     places = [s.at[0] for s in vehicle.springs if s.on_rail]
     if not places:
         remedy = "Give one end of a spring as 'rail'"
@@ -619,7 +632,7 @@ def _refuse_mechanism(vehicle: Vehicle) -> None:
         raise InputError("bodies", None, "no body has a freedom")
     scale = 1.0 / np.sqrt(np.diag(vehicle.mass_matrix))
     values, vectors = np.linalg.eigh(scale[:, None] * vehicle.stiffness_matrix * scale)
-    if values[0] <= 1e-10 * values[-1]:
+    if values[0] <= 1e-10 * values[-1] and not _stiff(vehicle.stiffness_matrix):
         loose = vehicle.labels[int(np.argmax(np.abs(vectors[:, 0])))]
         body, freedom = loose.rsplit(" ", 1)
         raise InputError(
@@ -628,6 +641,19 @@ def _refuse_mechanism(vehicle: Vehicle) -> None:
             "is held by no spring, so the vehicle is a mechanism",
             f"Add a spring that resists {freedom}, or take it from the body's freedoms",
         )
+
+
+def _stiff(matrix: np.ndarray) -> bool:
+    """Whether a stiffness matrix holds every freedom, however far its springs differ.
+
+    A light wheelset on its contact swings a million times faster than the car body sways; against
+    its own diagonal that does not count.
+    """
+    own = np.diag(matrix)
+    if own.min() <= 0.0:
+        return False
+    scale = 1.0 / np.sqrt(own)
+    return bool(np.linalg.eigvalsh(scale[:, None] * matrix * scale)[0] > 1e-12)
 
 
 def _refuse_lifted_wheel(vehicle: Vehicle) -> None:

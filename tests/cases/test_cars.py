@@ -8,10 +8,21 @@ from railbridge.cases.cars import CAR_PARAMETERS, two_bogie_car
 PARAMETERS = {"wheelset_mass": 0.0, **rb.car_parameters("xia2000")}
 
 
+RADIUS = "at least 0.05 and at most 5 m"
+CONTACT = "at least 1000000 and at most 1e+12 N/m. Steel on steel has about 1.3e9 N/m a wheel"
+SPECIAL = {
+    "wheelset_mass": "at least 0 kg", "static_wheelset_mass": "at least 0 kg",
+    "gauge": "above 0 and at most 5 m", "wheel_radius": RADIUS, "rail_head_radius": RADIUS,
+    "contact_stiffness": CONTACT, "contact_lateral_stiffness": CONTACT,
+    "contact_modulus": "at least 1e+09 and at most 1e+12 Pa",
+    "contact_poisson": "at least 0 and at most 0.499",
+}  # fmt: skip
+
+
 def allowed(name):
     """What a parameter of Table 1 may be, by its name; each kind has one unit."""
-    if name == "wheelset_mass":
-        return "at least 0 kg"
+    if name in SPECIAL:
+        return SPECIAL[name]
     kinds = {
         "mass": "above 0 kg", "inertia": "above 0 kg m2", "stiffness": "at least 0 N/m",
         "damping": "at least 0 N s/m", "length": "above 0 m", "spacing": "above 0 m",

@@ -2,6 +2,7 @@
 
 import copy
 
+import numpy as np
 import pytest
 
 import railbridge as rb
@@ -214,24 +215,119 @@ def test_a_car_s_table_needs_names_values_and_units_only(tmp_path, separator):
         assert found.length == usual.length == 22.5
 
 
-@pytest.mark.parametrize("name", ["wheelset_mass", "static_wheelset_mass"])
-def test_wheelsets_of_a_car_s_table_weigh_on_the_rail(tmp_path, name):
+def test_static_wheelsets_of_a_car_s_table_weigh_on_the_rail(tmp_path):
     usual = rb.vehicle("xia2000")
-    found = rb.vehicle(car_table(tmp_path, **{name: ("1.78", "t")}))
-    assert found.static_wheelset_mass == 1780.0
+    found = rb.vehicle(car_table(tmp_path, static_wheelset_mass=("1.78", "t")))
+    assert found.static_wheelset_mass == 1780.0 and found.wheelsets == ()
     assert found.weight == pytest.approx(usual.weight + 4 * 1780.0 * 9.81)
     more = [
         b.static_load - a.static_load for a, b in zip(usual.contacts, found.contacts, strict=True)
     ]
     assert more == pytest.approx([1780.0 * 9.81 / 2] * 8)
     assert found.modes().frequencies_hz == pytest.approx(usual.modes().frequencies_hz)
-    both = car_table(tmp_path, wheelset_mass=("1", "t"), static_wheelset_mass=("1", "t"))
-    with pytest.raises(InputError, match="row static_wheelset_mass: appears more than once"):
-        rb.vehicle(both)
-    with pytest.raises(
-        InputError, match="wheelset_mass = -1.0: must be a finite number at least 0"
-    ):
-        rb.vehicle(car_table(tmp_path, **{name: ("-1", "kg")}))
+    with pytest.raises(InputError, match="wheelset_mass = -1.0: must be a finite number at least"):
+        rb.vehicle(car_table(tmp_path, static_wheelset_mass=("-1", "kg")))
+
+
+def test_wheelsets_of_a_car_s_table_are_bodies_on_contact_springs(tmp_path):
+    rows = {
+        "wheelset_mass": ("1.78", "t"), "wheelset_roll_inertia": ("1.0", "t m2"),
+        "gauge": ("1500", "mm"), "contact_stiffness": ("1400", "MN/m"),
+    }  # fmt: skip
+    found = rb.vehicle(car_table(tmp_path, **rows))
+    assert [b.name for b in found.wheelsets] == [
+        "front wheelset 1", "front wheelset 2", "rear wheelset 1", "rear wheelset 2",
+    ]  # fmt: skip
+    assert {b.mass for b in found.wheelsets} == {1780.0}
+    assert {b.inertia for b in found.wheelsets} == {(1000.0, 0.0, 0.0)}
+    assert {b.freedoms for b in found.wheelsets} == {("y", "z", "roll")}
+    assert {abs(c.y) for c in found.contacts} == {0.75} and found.static_wheelset_mass == 0.0
+    assert found.contact_stiffness[:, 1] == pytest.approx(1.4e9)
+    static = rb.vehicle(car_table(tmp_path, static_wheelset_mass=("1.78", "t")))
+    loads = [c.static_load for c in static.contacts]
+    assert [c.static_load for c in found.contacts] == pytest.approx(loads)
+    assert found.weight == pytest.approx(static.weight)
+    # Steel wheels on steel rails where nothing is said of the contact: by Hertz.
+    rows = {name: rows[name] for name in ("wheelset_mass", "wheelset_roll_inertia")}
+    hertz = rb.vehicle(car_table(tmp_path, **rows)).contact_stiffness
+    assert hertz[:, 1] == pytest.approx(1.33739e9 * np.cbrt(np.array(loads) / 80e3), rel=1e-6)
+    assert hertz[:, 0] == pytest.approx(1.4 / 1.7 * hertz[:, 1])
+    massless = rb.vehicle(car_table(tmp_path, wheelset_mass=("0", "kg")))
+    assert massless.springs == rb.vehicle("xia2000").springs
+
+
+@pytest.mark.parametrize(
+    ("rows", "says"),
+    [
+        (
+            {"wheelset_mass": ("1", "t"), "static_wheelset_mass": ("1", "t")},
+            "wheelset_mass = 1000.0: static_wheelset_mass is given too, never both",
+        ),
+        ({"gauge": ("1.5", "m")}, "gauge = 1.5: has no meaning without wheelset_mass"),
+        (
+            {"primary_longitudinal_stiffness": ("10", "MN/m")},
+            "primary_longitudinal_stiffness = 10000000.0: has no meaning without wheelset_mass",
+        ),
+        ({"wheelset_mass": ("1", "t")}, "wheelset_roll_inertia: is missing"),
+        ({"wheelset_mas": ("1", "t")}, "row wheelset_mas: unknown parameter. Did you mean"),
+        (
+            {"wheelset_mass": ("1", "t"), "gauge": ("0", "m")},
+            "gauge = 0.0: must be a finite number above 0 and at most 5 m",
+        ),
+        (
+            {"wheelset_mass": ("1", "t"), "contact_stiffness": ("10", "N/m")},
+            "contact_stiffness = 10.0: must be a finite number at least 1000000 and",
+        ),
+    ],
+)
+def test_wheelsets_that_cannot_be_are_refused_by_their_rows(tmp_path, rows, says):
+    with pytest.raises(InputError) as refused:
+        rb.vehicle(car_table(tmp_path, **rows))
+    assert says in str(refused.value)
+
+
+ROLLING = {"wheelset_mass": ("1.8", "t"), "wheelset_roll_inertia": ("1", "t m2")}
+
+
+@pytest.mark.parametrize(
+    ("rows", "says"),
+    [
+        (
+            {"contact_stiffness": ("1e9", "N/m"), "wheel_radius": ("0.5", "m")},
+            "wheel_radius = 0.5: contact_stiffness is given too, never both",
+        ),
+        (
+            {"wheelset_yaw_inertia": ("1", "t m2")},
+            "wheelset_yaw_inertia = 1000.0: nothing holds the wheelset in yaw",
+        ),
+        (
+            {"primary_longitudinal_stiffness": ("1e7", "N/m")},
+            "wheelset_yaw_inertia: is missing",
+        ),
+        (
+            {"primary_longitudinal_damping": ("1e4", "N s/m")},
+            "primary_longitudinal_damping = 10000.0: needs longitudinal_stiffness",
+        ),
+    ],
+)
+def test_parts_of_wheelsets_that_do_not_go_together_are_refused(tmp_path, rows, says):
+    with pytest.raises(InputError) as refused:
+        rb.vehicle(car_table(tmp_path, **ROLLING, **rows))
+    assert says in str(refused.value)
+
+
+def test_wheelsets_held_along_the_track_yaw(tmp_path):
+    rows = {
+        "wheelset_yaw_inertia": ("1", "t m2"), "primary_longitudinal_stiffness": ("10", "MN/m"),
+        "secondary_longitudinal_stiffness": ("0.2", "MN/m"),
+    }  # fmt: skip
+    found = rb.vehicle(car_table(tmp_path, **ROLLING, **rows))
+    assert {b.freedoms for b in found.wheelsets} == {("y", "z", "roll", "yaw")}
+    along = {(s.to, s.longitudinal_stiffness) for s in found.springs if s.from_ == "car"}
+    assert along == {("front bogie", 2e5), ("rear bogie", 2e5)}
+    # The two wheelsets of a bogie yaw against each other; the bogie stands still between.
+    yaws = np.sqrt(2 * 1e7 * 0.98**2 / 1000.0) / (2 * np.pi)
+    assert np.sum(np.abs(found.modes().frequencies_hz / yaws - 1) < 1e-8) == 2
 
 
 def test_a_car_s_length_may_be_left_out(tmp_path):
@@ -260,3 +356,161 @@ def test_a_car_in_other_units_is_the_same_car(tmp_path):
     found = rb.vehicle(car_table(tmp_path, drop=tuple(other), **written))
     assert found.modes().frequencies_hz == pytest.approx(usual.modes().frequencies_hz, rel=1e-12)
     assert found.damping_matrix == pytest.approx(usual.damping_matrix)
+
+
+# ---- wheelsets, anti-roll bars and more in vehicle files
+
+COACH = """
+length = 20.0
+[[body]]
+name = "car"
+mass = 30e3
+inertia = [4e4, 1e6, 1e6]
+position = [0.0, 0.0, 1.8]
+freedoms = "y z roll pitch yaw"
+[[wheelset]]
+name = "front"
+x = 6.0
+mass = 1500.0
+roll_inertia = 900.0
+yaw_inertia = 1000.0
+[[wheelset]]
+name = "rear"
+x = -6.0
+mass = 1500.0
+roll_inertia = 900.0
+yaw_inertia = 1000.0
+contact_stiffness = [1.0e9, 1.2e9]
+height = 0.5
+"""
+for _place, _name in ((6.0, "front"), (-6.0, "rear")):
+    for _y in (1.0, -1.0):
+        COACH += f"""
+[[spring]]
+from = "car"
+to = "{_name}"
+at = [{_place}, {_y}, 0.8]
+stiffness = [8e5, 9e5]
+damping = [2e4, 3e4]
+longitudinal_stiffness = 5e6
+longitudinal_damping = 1e4
+series_stiffness = [0.0, 4e6]
+"""
+COACH += """
+[[anti_roll_bar]]
+from = "car"
+to = "front"
+stiffness = 1e6
+"""
+
+
+def coach(tmp_path, *changes):
+    text = COACH
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    path = tmp_path / "coach.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_vehicle_file_may_have_wheelsets_and_every_part(tmp_path):
+    car = rb.vehicle(coach(tmp_path))
+    assert [b.name for b in car.wheelsets] == ["front", "rear"]
+    assert car.wheelsets[0].position == (6.0, 0.0, 0.46)
+    assert car.wheelsets[1].position == (-6.0, 0.0, 0.5)
+    assert car.wheelsets[0].freedoms == ("y", "z", "roll", "yaw")
+    load = (30e3 / 4 + 1500 / 2) * 9.81
+    # The springs along the track resist what little the car pitches on unequal contacts.
+    assert [c.static_load for c in car.contacts] == pytest.approx([load] * 4, rel=1e-5)
+    assert [c.y for c in car.contacts] == [0.75, -0.75] * 2
+    hertz = 1.33739e9 * np.cbrt(load / 80e3)
+    expected = [[1.4 / 1.7 * hertz, hertz]] * 2 + [[1.0e9, 1.2e9]] * 2
+    assert car.contact_stiffness == pytest.approx(np.array(expected), rel=1e-6)
+    assert car.anti_roll_bars == (rb.AntiRollBar("car", "front", 1e6),)
+    held = {(s.longitudinal_stiffness, s.series_stiffness) for s in car.springs if not s.on_rail}
+    assert held == {(5e6, (0.0, 4e6))}
+    case = {**rb.case("paper").content, "train": {"vehicle": str(coach(tmp_path)), "cars": 2}}
+    assert len(rb.Case(case).train.wheels) == 8
+    small = rb.vehicle(coach(tmp_path, ("mass = 1500.0", "mass = 1500.0\nwheel_radius = 0.42")))
+    assert small.wheelsets[0].position[2] == 0.42
+
+
+def test_wheelsets_in_the_plane_have_one_contact_each(tmp_path):
+    path = tmp_path / "wagon.toml"
+    path.write_text(
+        """
+        [[body]]
+        name = "car"
+        mass = 20e3
+        inertia = [0.0, 2e5, 0.0]
+        position = [0.0, 0.0, 1.5]
+        freedoms = ["z", "pitch"]
+        """
+        + "".join(
+            f"""
+            [[wheelset]]
+            name = "{name}"
+            x = {x}
+            mass = 1200.0
+            gauge = 0.0
+            contact_stiffness = [0.0, 1.3e9]
+            [[spring]]
+            from = "car"
+            to = "{name}"
+            at = [{x}, 0.0, 0.8]
+            stiffness = [0.0, 1.5e6]
+            """
+            for name, x in (("front", 4.0), ("rear", -4.0))
+        ),
+        encoding="utf-8",
+    )
+    car = rb.vehicle(path)
+    assert car.labels == ("car z", "car pitch", "front z", "rear z")
+    assert car.contact_stiffness.tolist() == [[0.0, 2.6e9]] * 2
+    assert [c.carries for c in car.contacts] == ["car", "car"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        (
+            "length",
+            "static_wheelset_mass = 1.0\nlength",
+            "static_wheelset_mass = 1.0: the wheelsets",
+        ),
+        ('to = "front"', 'to = "frnt"', "springs[1].to = 'frnt': must be one of car, front, rear"),
+        ("x = 6.0", "x = 6.0\ngage = 1.5", "wheelset[1].gage: unknown key. Did you mean 'gauge'?"),
+        ("roll_inertia = 900.0\n", "", "wheelset[1].roll_inertia: is needed"),
+        (
+            "mass = 1500.0",
+            "mass = -1.0",
+            "wheelset[1].mass = -1.0: must be a finite number above 0",
+        ),
+        (
+            "height = 0.5",
+            "wheel_radius = 0.4",
+            "wheelset[2].wheel_radius = 0.4: contact_stiffness is given too, never both",
+        ),
+        ("1.2e9]", "1.2e5]", "wheelset[2].contact_stiffness[2] = 120000.0: must be a finite"),
+        ('name = "rear"', 'name = "front"', "wheelset[1].name = 'front': must be unique"),
+        ("longitudinal_stiffness = 5e6", "", "front: yaw"),
+        ("= 1e6\n", "= -1e6\n", "anti_roll_bar[1].stiffness = -1000000.0: must be"),
+        ('to = "front"\nstiffness = 1e6', 'to = "rail"\nstiffness = 1e6', "anti_roll_bar[1].to"),
+        ("[0.0, 4e6]", "[1.0, -4e6]", "spring[1].series_stiffness[2] = -4000000.0: must be"),
+        ("[[wheelset]]", "[wheelset]", "wheelset"),
+    ],
+)
+def test_parts_of_vehicle_files_that_cannot_be_are_named(tmp_path, old, new, says):
+    if "yaw" in says:
+        path = coach(tmp_path, *[(old, new)] * 4)
+    elif new == "[wheelset]":
+        path = tmp_path / "coach.toml"
+        whole = COACH.split("[[wheelset]]")
+        path.write_text(whole[0] + "[wheelset]" + whole[1] + whole[2][whole[2].index("[["):],
+                        encoding="utf-8")  # fmt: skip
+    else:
+        path = coach(tmp_path, (old, new))
+    with pytest.raises(InputError) as refused:
+        rb.vehicle(path)
+    assert says in str(refused.value)

@@ -144,3 +144,97 @@ def test_a_zigzag_runs_from_end_to_end():
     across = (line - foot) @ np.array([-4.0, 3.0]) / 5.0
     assert np.all(np.diff(along) > 0.0) and along[-1] == pytest.approx(5.0)
     assert across.max() == pytest.approx(-across.min()) and across.max() > 0.0
+
+
+@pytest.fixture(scope="module")
+def shared():
+    """Three coaches of 18 m on four bogies, on wheelsets with mass."""
+    bodies, springs = [], []
+    for i, x in enumerate((18.0, 0.0, -18.0), start=1):
+        bodies.append(rb.Body(f"coach {i}", 24e3, (4e4, 6e5, 6e5), (x, 0.0, 1.8)))
+    for i, x in enumerate((27.0, 9.0, -9.0, -27.0), start=1):
+        bodies.append(rb.Body(f"bogie {i}", 3e3, (2e3, 4e3, 4e3), (x, 0.0, 0.6)))
+        for y in (1.0, -1.0):
+            for axle in (x + 1.2, x - 1.2):
+                springs.append(
+                    rb.Spring(f"bogie {i}", "rail", (axle, y, 0.0), (4e6, 1.2e6), (2e4, 2e4))
+                )
+            for coach in (i - 1, i):
+                if 1 <= coach <= 3:
+                    ends = f"coach {coach}", f"bogie {i}"
+                    springs.append(rb.Spring(*ends, (x, y, 1.0), (3e5, 4e5), (2e4, 2e4)))
+    plain = rb.Vehicle("articulated", tuple(bodies), tuple(springs), 57.0)
+    return rb.with_wheelsets(plain, mass=1500.0, roll_inertia=900.0)
+
+
+def test_coaches_that_share_bogies_stand_beside_each_other(shared):
+    boxes = VehicleOutline(shared).boxes
+    ends = [
+        (boxes[f"coach {i}"].centre[0] - boxes[f"coach {i}"].half[0],
+         boxes[f"coach {i}"].centre[0] + boxes[f"coach {i}"].half[0])
+        for i in (1, 2, 3)
+    ]  # fmt: skip
+    for (rear, _), (_, front) in zip(ends[:-1], ends[1:], strict=True):
+        assert 0.1 < rear - front < 0.5, "a gap, and no wide one"
+    assert all(front - rear > 17.0 for rear, front in ends)
+    # One body on bogies is as long as ever.
+    assert VehicleOutline(rb.vehicle("xia2000")).boxes["car"].half[0] == pytest.approx(0.48 * 22.5)
+
+
+def test_wheelsets_are_drawn_where_their_wheels_are(shared):
+    outline, plain = VehicleOutline(shared), VehicleOutline(rb.vehicle("xia2000"))
+    assert outline.levels["bogie 1 wheelset 1"] == 0 and outline.levels["bogie 1"] == 1
+    for body in shared.wheelsets:
+        box = outline.boxes[body.name]
+        assert box.centre == pytest.approx([body.position[0], 0.0, WHEEL_RADIUS])
+        assert box.half[1] == 0.75 and box.half[0] < WHEEL_RADIUS
+    # All else stands as high as on massless wheels, and the stiff contacts are left out.
+    assert outline.boxes["coach 1"].centre[2] == plain.boxes["car"].centre[2]
+    assert len(outline.springs) == len(shared.springs) - 16
+    foot, head = outline.spring(next(s for s in shared.springs if s.to == "bogie 1 wheelset 1"), {})
+    assert foot[2] == WHEEL_RADIUS and head[2] > foot[2]
+
+
+def test_a_train_of_coaches_has_each_of_them_and_every_bogie_once(shared):
+    outline = train_outline(rb.Train(shared, 2))
+    assert len(outline.cars) == 6 and len(outline.frames) == 8 and len(outline.wheels) == 16
+    assert [len(car.bogies) for car in outline.cars] == [2] * 6
+    middle = [np.mean([wheels.mean() for wheels in car.bogies]) for car in outline.cars]
+    inside = [rear < x < front for (rear, front), x in zip(
+        (car.ends for car in outline.cars), middle, strict=True)]  # fmt: skip
+    assert all(inside) and np.all(np.diff(middle) < 0.0)
+    # Each coach lies as its own bogies do.
+    x, z = (v.reshape(6, 6)[:, :5] for v in outline.paths(HEIGHTS, lambda x: 1e-3 * x**2)["cars"])
+    slopes = (z[:, 1] - z[:, 0]) / (x[:, 1] - x[:, 0])
+    assert slopes == pytest.approx(2e-3 * np.array(middle), rel=1e-9)
+    # Four coaches of a vehicle on two bogies each keep theirs apart.
+    assert len(train_outline(rb.Train(rb.vehicle("xia2000"), 2, 22.5)).frames) == 4
+
+
+def test_names_of_an_articulated_vehicle_do_not_cover_each_other(shared):
+    axes = rb.plots.vehicle(shared)
+    figure = axes[0].figure
+    figure.canvas.draw()
+    for ax in axes:
+        boxes = [
+            (t.get_text(), t.get_window_extent()) for t in (*ax.texts, ax.title) if t.get_text()
+        ]
+        for i, (name, box) in enumerate(boxes):
+            for other, beside in boxes[i + 1 :]:
+                assert not box.overlaps(beside), (name, other)
+    texts = [t.get_text() for t in (*axes[0].texts, *axes[1].texts)]
+    assert "coach 2\n24 t" in texts and "bogie 3\n3 t" in texts and "length 57 m" in texts
+    assert not any("wheelset" in text for text in texts)
+    assert axes[1].get_title(loc="left") == "from above; 8 wheelsets of 1.5 t"
+    assert axes[0].get_window_extent().width > 0.7 * figure.bbox.width
+    rb.plots.vehicle_mode(shared, 4)
+    rb.plots.animate_vehicle_mode(shared, 4)
+    rb.plots.train_on_deck(rb.Train(shared), rb.deck("viaduct36"))
+
+
+def test_every_vehicle_with_wheelsets_is_drawn_and_rides():
+    for name in ("manchester", "sprung_mass"):
+        car = rb.with_wheelsets(rb.vehicle(name), mass=1500.0)
+        rb.plots.vehicle(car)
+        rb.plots.vehicle_mode(car, 1)
+        rb.plots.animate_car_on_waves(car, rb.Harmonic(2e-3, wavelength=10.0), speed=20.0)

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from .. import errors
-from ..errors import InputError, Range, within
+from ..errors import InputError, Range, field_types, within
+from ..hertz import HertzContact
 from ..vehicles import Body, Spring, Vehicle
+from ..wheelsets import CONTACT_STIFFNESS, with_wheelsets
 
 __all__ = [
     "CAR_PARAMETERS", "OPTIONAL_PARAMETERS", "planar_car", "sprung_mass", "two_bogie_car",
@@ -27,11 +29,24 @@ CAR_PARAMETERS = {
     "length": _LENGTH, "bogie_spacing": _LENGTH, "axle_spacing": _LENGTH,
     "car_body_above_secondary": _HEIGHT, "secondary_above_bogie": _HEIGHT,
     "primary_below_bogie": _HEIGHT, "primary_half_width": _LENGTH, "secondary_half_width": _LENGTH,
+    "static_wheelset_mass": Range(least=0.0, unit="kg"),
+    "secondary_longitudinal_stiffness": _STIFFNESS, "secondary_longitudinal_damping": _DAMPING,
     "wheelset_mass": Range(least=0.0, unit="kg"),
+    "wheelset_roll_inertia": _INERTIA, "wheelset_yaw_inertia": _INERTIA,
+    "gauge": Range(above=0.0, most=5.0, unit="m"),
+    "primary_longitudinal_stiffness": _STIFFNESS, "primary_longitudinal_damping": _DAMPING,
+    "contact_stiffness": CONTACT_STIFFNESS, "contact_lateral_stiffness": CONTACT_STIFFNESS,
+    **{name: kind.range for name, kind in field_types(HertzContact).items()},
 }  # fmt: skip
 """Names of a two-bogie car's parameters (Table 1) and what each may be, with its SI unit."""
-OPTIONAL_PARAMETERS = ("length", "wheelset_mass")
+_NAMES = tuple(CAR_PARAMETERS)
+OPTIONAL_PARAMETERS = ("length", *_NAMES[_NAMES.index("static_wheelset_mass") :])
 """Those that may be left out."""
+_OF_WHEELSETS = {
+    name.removeprefix("primary_").removeprefix("wheelset_"): name
+    for name in _NAMES[_NAMES.index("wheelset_mass") :]
+}
+"""What `with_wheelsets` calls the parameters of wheelsets with mass."""
 
 
 def two_bogie_car(name: str, **parameters: float) -> Vehicle:
@@ -42,18 +57,25 @@ def two_bogie_car(name: str, **parameters: float) -> Vehicle:
     name : str
     **parameters : float
         All of `CAR_PARAMETERS`, SI; ``length`` may be left out where trains are given their car
-        spacing, ``wheelset_mass`` where it is neglected. Stiffness and damping are per spring: each
-        bogie has two secondary springs (left and right), each axle two primary springs.
+        spacing. Stiffness and damping are per spring: each bogie has two secondary springs (left
+        and right), each axle two primary springs.
+        Of wheelsets ``static_wheelset_mass`` counts the weight only, ``wheelset_mass`` makes bodies
+        of them, each wheel on its contact spring, as `with_wheelsets` does: then also
+        ``wheelset_roll_inertia`` is needed, and ``gauge``, ``contact_stiffness`` or the radii and
+        the material of the contact, and ``primary_longitudinal_stiffness`` with
+        ``wheelset_yaw_inertia`` may be given. Without either, or with 0, wheels are massless.
 
     Notes
     -----
     The paper gives no height above the rail. The primary springs are placed at rail level, so that
-    the lateral wheel force acts there (no couple F_y times height on the deck).
+    the lateral wheel force acts there (no couple F_y times height on the deck). The centres of
+    wheelsets are there, too: how high they are above the contact is neglected.
     """
     with within(source=f"vehicle {errors.text('name', name)}"):
         needed = [key for key in CAR_PARAMETERS if key not in OPTIONAL_PARAMETERS]
         errors.keys("", parameters, CAR_PARAMETERS, needed)
         p = {key: CAR_PARAMETERS[key].checked(key, value) for key, value in parameters.items()}
+        _refuse_mixture(p)
     bogie_z = p["primary_below_bogie"]
     secondary_z = bogie_z + p["secondary_above_bogie"]
     if p["axle_spacing"] >= p["bogie_spacing"]:
@@ -71,7 +93,11 @@ def two_bogie_car(name: str, **parameters: float) -> Vehicle:
             (p[f"{level}_lateral_{kind}"], p[f"{level}_vertical_{kind}"])
             for kind in ("stiffness", "damping")
         )
-        return Spring(upper, lower, at, stiffness, damping)
+        along = {}
+        if lower != "rail":
+            keys = ("longitudinal_stiffness", "longitudinal_damping")
+            along = {key: p.get(f"{level}_{key}", 0.0) for key in keys}
+        return Spring(upper, lower, at, stiffness, damping, **along)
 
     centre = (0.0, 0.0, secondary_z + p["car_body_above_secondary"])
     bodies = [Body("car", p["car_body_mass"], inertia["car_body"], centre)]
@@ -86,8 +112,27 @@ def two_bogie_car(name: str, **parameters: float) -> Vehicle:
             for side in (1.0, -1.0):
                 at = (x + axle * p["axle_spacing"] / 2, side * p["primary_half_width"], 0.0)
                 springs.append(suspension("primary", bogie, "rail", at))
-    length, wheelset = p.get("length"), p.get("wheelset_mass", 0.0)
-    return Vehicle(name, tuple(bodies), tuple(springs), length, wheelset)
+    length, static = p.get("length"), p.get("static_wheelset_mass", 0.0)
+    car = Vehicle(name, tuple(bodies), tuple(springs), length, static)
+    if not p.get("wheelset_mass"):
+        return car
+    own = {said: p[key] for said, key in _OF_WHEELSETS.items() if key in p}
+    with within("", _OF_WHEELSETS, f"vehicle {name}"):
+        return with_wheelsets(car, **own)
+
+
+def _refuse_mixture(p: dict[str, float]) -> None:
+    """Refuse parameters of wheelsets that do not go together."""
+    if p.get("static_wheelset_mass") and p.get("wheelset_mass"):
+        remedy = "Give static_wheelset_mass for its weight only, wheelset_mass for its inertia too"
+        allowed = "static_wheelset_mass is given too, never both"
+        raise InputError("wheelset_mass", p["wheelset_mass"], allowed, remedy)
+    if "wheelset_mass" in p:
+        return
+    for key in _OF_WHEELSETS.values():
+        if key in p:
+            allowed = "has no meaning without wheelset_mass: massless wheels stand on the rail"
+            raise InputError(key, p[key], allowed, "Add wheelset_mass, or leave it out")
 
 
 def sprung_mass(
@@ -102,7 +147,8 @@ def sprung_mass(
 def planar_car(car: Vehicle) -> Vehicle:
     """Reduce a car to its vertical plane: bounce and pitch of every body, all springs at y = 0.
 
-    Left and right springs are put together; those that are lateral only are left out.
+    Left and right springs are put together; those that are lateral only are left out, and so are
+    anti-roll bars.
     """
     errors.instance("car", car, Vehicle)
     bodies = tuple(
@@ -110,13 +156,26 @@ def planar_car(car: Vehicle) -> Vehicle:
     )
     together: dict[tuple, list[Spring]] = {}
     for s in car.springs:
-        if s.stiffness[1] or s.damping[1]:
-            together.setdefault((s.from_, s.to, s.at[0], s.at[2]), []).append(s)
+        if s.stiffness[1] or s.damping[1] or s.longitudinal_stiffness or s.longitudinal_damping:
+            # Dampers in series with a spring add up only if they relax alike.
+            series = (s.series_stiffness or (0.0, 0.0))[1]
+            relaxes = series / s.damping[1] if series else 0.0
+            together.setdefault((s.from_, s.to, s.at[0], s.at[2], relaxes), []).append(s)
     springs = tuple(
-        Spring(
-            from_, to, (x, 0.0, z),
-            (0.0, sum(s.stiffness[1] for s in own)), (0.0, sum(s.damping[1] for s in own)),
-        )
-        for (from_, to, x, z), own in together.items()
-    )  # fmt: skip
+        _put_together(own, from_, to, (x, 0.0, z)) for (from_, to, x, z, _), own in together.items()
+    )
     return Vehicle(f"{car.name} planar", bodies, springs, car.length, car.static_wheelset_mass)
+
+
+def _put_together(
+    springs: list[Spring], from_: str, to: str, at: tuple[float, float, float]
+) -> Spring:
+    """Return springs side by side as one in the vertical plane."""
+    series = sum(s.series_stiffness[1] for s in springs if s.series_stiffness)
+    return Spring(
+        from_, to, at,
+        (0.0, sum(s.stiffness[1] for s in springs)), (0.0, sum(s.damping[1] for s in springs)),
+        sum(s.longitudinal_stiffness for s in springs),
+        sum(s.longitudinal_damping for s in springs),
+        (0.0, series) if series else None,
+    )  # fmt: skip

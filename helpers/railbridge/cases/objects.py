@@ -23,7 +23,8 @@ from ..plausibility import damping_frequencies
 from ..tracks import Harmonic, Irregularity, Level, Notch, Rails, Track
 from ..tracks import Table as MeasuredTrack
 from ..trains import AnyTrain, AxleTrain, Train
-from ..vehicles import Body, Spring, Vehicle
+from ..vehicles import AntiRollBar, Body, Spring, Vehicle
+from ..wheelsets import Wheelset, on_wheelsets
 from . import shelf, tables
 from .axletrains import train
 from .cars import CAR_PARAMETERS, OPTIONAL_PARAMETERS, two_bogie_car
@@ -53,7 +54,11 @@ def vehicle(source: str | Path) -> Vehicle:
         with within(source=path.name):
             return two_bogie_car(path.stem, **car_parameters(path))
     content = shelf.read_toml(path, tables.VEHICLE.model_fields)
-    with within("", {"bodies": "body", "springs": "spring"}, path.name):
+    names = {
+        "bodies": "body", "springs": "spring", "wheelsets": "wheelset",
+        "anti_roll_bars": "anti_roll_bar",
+    }  # fmt: skip
+    with within("", names, path.name):
         return _vehicle_from_table(path.stem, content)
 
 
@@ -66,8 +71,8 @@ def car_parameters(source: str | Path) -> dict[str, float]:
         A shipped name (``xia2000``) or a ``.csv`` file.
     """
     units = {name: bounds.unit for name, bounds in CAR_PARAMETERS.items()}
-    path, same = shelf.data_file("vehicles", source), {"static_wheelset_mass": "wheelset_mass"}
-    return shelf.read_parameters(path, units, OPTIONAL_PARAMETERS, same)
+    path = shelf.data_file("vehicles", source)
+    return shelf.read_parameters(path, units, OPTIONAL_PARAMETERS)
 
 
 def varied_car(source: str | Path, **factors: float) -> Vehicle:
@@ -102,15 +107,28 @@ def varied_car(source: str | Path, **factors: float) -> Vehicle:
 
 def _vehicle_from_table(name: str, content: dict[str, Any]) -> Vehicle:
     t = checked(tables.VEHICLE, content)
-    bodies, springs = [], []
-    for i, body in enumerate(t.body, start=1):
-        with within(f"body[{i}]"):
-            bodies.append(Body(**{"inertia": (0.0, 0.0, 0.0)} | body.given))
-    for i, spring in enumerate(t.spring, start=1):
-        with within(f"spring[{i}]", {"from_": "from"}):
-            springs.append(Spring(**{"damping": (0.0, 0.0)} | spring.given))
+    bodies = _made(Body, "body", t.body, {"inertia": (0.0, 0.0, 0.0)})
+    springs = _made(Spring, "spring", t.spring, {"damping": (0.0, 0.0)})
+    bars = _made(AntiRollBar, "anti_roll_bar", t.anti_roll_bar or [])
+    wheelsets = _made(Wheelset, "wheelset", t.wheelset or [])
     mass = t.static_wheelset_mass
-    return Vehicle(name, tuple(bodies), tuple(springs), t.length, mass)
+    if not wheelsets:
+        return Vehicle(name, bodies, springs, t.length, mass, bars)
+    if mass:
+        allowed = "the wheelsets are given as bodies, never both"
+        raise InputError("static_wheelset_mass", mass, allowed, "Remove it, or the wheelsets")
+    return on_wheelsets(name, bodies, springs, wheelsets, t.length, bars)
+
+
+def _made(
+    kind: type, path: str, given: Iterable[Table], defaults: Mapping[str, Any] | None = None
+) -> tuple:
+    """Return the objects that the tables of one list become."""
+    result = []
+    for i, own in enumerate(given, start=1):
+        with within(f"{path}[{i}]", {"from_": "from"}):
+            result.append(kind(**{**(defaults or {}), **own.given}))
+    return tuple(result)
 
 
 # ---- trains and tracks of cases

@@ -29,7 +29,8 @@ from ..settings import Options
 from ..tracks import Harmonic, Notch
 from ..tracks import Table as MeasuredTrack
 from ..trains import AxleTrain, Train
-from ..vehicles import FREEDOMS, Body, Spring, Vehicle
+from ..vehicles import FREEDOMS, AntiRollBar, Body, Spring, Vehicle
+from ..wheelsets import Wheelset
 from .tabletypes import (
     Table,
     anything,
@@ -149,6 +150,12 @@ BODY = table(
     **fields_of(Body, optional=("inertia",), required=("freedoms",), freedoms=_words(FREEDOMS, 1)),
 )
 SPRING = table("Spring", "A spring and damper.", **fields_of(Spring, optional=("damping",)))
+ANTI_ROLL_BAR = table(
+    "AntiRollBar", "A torsion spring between the rolls of two bodies.", **fields_of(AntiRollBar)
+)
+WHEELSET = table(
+    "Wheelset", "An axle with its wheels, and their contacts with the rails.", **fields_of(Wheelset)
+)
 VEHICLE = table(
     "Vehicle",
     "A linear vehicle: bodies on springs.",
@@ -156,6 +163,11 @@ VEHICLE = table(
     **fields_of(Vehicle, only=("length", "static_wheelset_mass")),
     body=key(list_of(BODY, "body"), "Car body, bogies.", required=True),
     spring=key(list_of(SPRING, "spring"), "Suspension and contacts with the rail.", required=True),
+    wheelset=key(
+        list_of(WHEELSET, "wheelset"),
+        "Wheelsets with mass, each with its contacts; springs end at their names.",
+    ),
+    anti_roll_bar=key(list_of(ANTI_ROLL_BAR, "anti_roll_bar"), "Between bodies that roll."),
 )
 
 
@@ -566,5 +578,6 @@ TABLES = {
     "named train": NAMED, "train file": FROM_FILE, "train.notch": NOTCH, "track": TRACK,
     "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "none": LEVEL, "run": RUN,
     "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
+    "wheelset": WHEELSET, "anti roll bar": ANTI_ROLL_BAR,
 }  # fmt: skip
 """Every table by what the pages call it."""

@@ -1,7 +1,8 @@
 """Outlines of a vehicle and of a train on its deck: where their parts are drawn, and nothing else.
 
 Lengths and widths are true, heights are schematic: parameter tables give springs without length,
-so bodies are drawn one above the other.
+so bodies are drawn one above the other. Wheelsets are drawn where their wheels are; coaches that
+share bogies end beside each other above them.
 """
 
 from __future__ import annotations
@@ -15,12 +16,12 @@ import numpy as np
 
 from .. import errors
 from ..trains import AnyTrain, Car
-from ..vehicles import FREEDOMS, Modes, Spring, Vehicle
+from ..vehicles import FREEDOMS, Body, Modes, Spring, Vehicle
 
 __all__ = [
     "VIEWS", "VIEW_NAMES", "WHEEL_RADIUS", "BodyBox", "CarOutline", "Heights", "Motion", "Path",
-    "TrainOutline", "VehicleOutline", "drawn_length", "is_long", "mode_motion", "train_outline",
-    "zigzag",
+    "TrainOutline", "VehicleOutline", "coach_ends", "drawn_length", "is_long", "mode_motion",
+    "train_outline", "zigzag",
 ]  # fmt: skip
 
 # ---- a vehicle by itself
@@ -32,6 +33,8 @@ VIEW_NAMES = {"side": "side", "top": "from above", "front": "looking forward"}
 WHEEL_RADIUS = 0.46  # m, as all that follows
 _SPRING_LENGTH = 0.42
 _LOW_BODY, _ONLY_BODY, _TOP_BODY = 0.34, 1.1, 2.3
+_AXLE = 0.11  # half height and half length of a wheelset
+_BETWEEN = 0.15  # half of the gap between two coaches
 
 Motion = Mapping[str, np.ndarray]
 """y, z (m), roll, pitch, yaw (rad) of bodies as drawn, by name; a body that is missing rests."""
@@ -70,8 +73,8 @@ class VehicleOutline:
 
     @cached_property
     def levels(self) -> dict[str, int]:
-        """How many springs each body stands above the rail."""
-        levels = {"rail": 0}
+        """How many springs each body stands above the rail or above its wheelsets."""
+        levels = {"rail": 0} | {body.name: 0 for body in self.vehicle.wheelsets}
         while len(levels) <= len(self.vehicle.bodies):
             new = {}
             for spring in self.vehicle.springs:
@@ -84,11 +87,20 @@ class VehicleOutline:
         return levels
 
     @cached_property
+    def springs(self) -> tuple[Spring, ...]:
+        """The springs that are drawn: all but the contacts of wheelsets, which are stiff."""
+        own = {body.name for body in self.vehicle.wheelsets}
+        return tuple(s for s in self.vehicle.springs if not (s.on_rail and own & {s.from_, s.to}))
+
+    @cached_property
     def boxes(self) -> dict[str, BodyBox]:
         """The body boxes by name, from low to high."""
         highest = max(self.levels.values())
-        boxes = {}
+        boxes, coaches = {}, coach_ends(self.vehicle, _LONG_SHARE)
         for body in sorted(self.vehicle.bodies, key=lambda body: self.levels[body.name]):
+            if self.levels[body.name] == 0:
+                boxes[body.name] = self._wheelset(body)
+                continue
             springs = [s for s in self.vehicle.springs if body.name in (s.from_, s.to)]
             reach = np.abs(np.array([s.at for s in springs]) - body.position).max(axis=0)
             level = self.levels[body.name]
@@ -96,11 +108,28 @@ class VehicleOutline:
             long = on_top and highest > 1
             height = _TOP_BODY if long else _ONLY_BODY if on_top else _LOW_BODY
             bottom = WHEEL_RADIUS + _SPRING_LENGTH * level + _LOW_BODY * (level - 1)
-            half_x = max(reach[0] + 0.35, 0.48 * drawn_length(self.vehicle) if long else 0.9)
+            half_x = reach[0] + 0.35
+            if long and len(coaches) > 1 and body.name in coaches:
+                half_x = min(abs(end - body.position[0]) for end in coaches[body.name])
+            elif long:
+                half_x = max(half_x, _LONG_SHARE * drawn_length(self.vehicle))
+            half_x = max(half_x, 0.9)
             half_y = max(reach[1] + 0.12, 1.45 if on_top else 0.9)
             centre = np.array([body.position[0], body.position[1], bottom + height / 2])
             boxes[body.name] = BodyBox(centre, np.array([half_x, half_y, height / 2]), on_top)
         return boxes
+
+    def _wheelset(self, body: Body) -> BodyBox:
+        """Return the axle of a wheelset, between its wheels."""
+        y = [abs(c.y - body.position[1]) for c in self.vehicle.contacts if c.body == body.name]
+        half = np.array([_AXLE, max(max(y), _AXLE), _AXLE])
+        return BodyBox(np.array([*body.position[:2], WHEEL_RADIUS]), half, False)
+
+    def top(self, name: str) -> float:
+        """Return how high springs stand on a body or on the rail, m: of wheels their middle."""
+        if self.levels[name] == 0:
+            return WHEEL_RADIUS
+        return self.boxes[name].centre[2] + self.boxes[name].half[2]
 
     @cached_property
     def extent(self) -> np.ndarray:
@@ -128,7 +157,7 @@ class VehicleOutline:
         low, high = sorted((spring.from_, spring.to), key=self.levels.get)
         x, y, _ = spring.at
         boxes = self.boxes
-        foot = WHEEL_RADIUS if low == "rail" else boxes[low].centre[2] + boxes[low].half[2]
+        foot = self.top(low)
         head = boxes[high].centre[2] - boxes[high].half[2]
         ends = np.array([[x, y, foot]]), np.array([[x, y, head]])
         pairs = zip(ends, (low, high), strict=True)
@@ -144,6 +173,35 @@ def drawn_length(vehicle: Vehicle) -> float:
     """Return the length of a vehicle, m; where it is not given, what covers wheels and springs."""
     reach = max(abs(spring.at[0]) for spring in vehicle.springs)
     return vehicle.length or 2.0 * reach + 2.0
+
+
+_LONG_SHARE = 0.48  # half of a long car body as drawn, of the vehicle's length
+
+
+def coach_ends(vehicle: Vehicle, share: float) -> dict[str, tuple[float, float]]:
+    """Return rear and front end of every car body, m ahead of mid-length, by name.
+
+    Neighbours end beside each other, midway between their springs.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    share : float
+        Where the outer ends are, of the vehicle's length.
+    """
+    coaches, outer = vehicle.car_bodies, share * drawn_length(vehicle)
+    reach = {
+        coach.name: [s.at[0] for s in vehicle.springs if coach.name in (s.from_, s.to)]
+        for coach in coaches
+    }
+    between = [
+        (min(reach[ahead.name]) + max(reach[behind.name])) / 2
+        for ahead, behind in zip(coaches[:-1], coaches[1:], strict=True)
+    ]
+    fronts = [outer, *(x - _BETWEEN for x in between)]
+    rears = [*(x + _BETWEEN for x in between), -outer]
+    pairs = zip(coaches, rears, fronts, strict=True)
+    return {coach.name: (rear, front) for coach, rear, front in pairs}
 
 
 def mode_motion(
@@ -200,14 +258,14 @@ class Heights(NamedTuple):
 
 @dataclass(frozen=True)
 class CarOutline:
-    """A car of a train as drawn.
+    """A car body of a train as drawn: a car, or a coach of an articulated one.
 
     Attributes
     ----------
     ends : (float, float)
-        Rear and front end of the car body, m.
+        Its rear and front end, m.
     bogies : tuple of ndarray
-        Places of the wheels under each body that stands on wheels, m, front to back.
+        Places of the wheels under each bogie that carries it, m, front to back.
     """
 
     ends: tuple[float, float]
@@ -229,6 +287,12 @@ class TrainOutline:
     wheels: np.ndarray
     cars: tuple[CarOutline, ...]
 
+    @property
+    def frames(self) -> tuple[np.ndarray, ...]:
+        """Places of the wheels under every bogie, m; one that carries two coaches counts once."""
+        found = {tuple(wheels): wheels for car in self.cars for wheels in car.bogies}
+        return tuple(found.values())
+
     def paths(
         self, heights: Heights, rail: Callable[[np.ndarray], np.ndarray] = np.zeros_like
     ) -> dict[str, Path]:
@@ -238,12 +302,12 @@ class TrainOutline:
         wheels are on average; a car body lies as its outermost bogies do.
         """
         bogies, cars = [], []
+        for wheels in self.frames:
+            ends = [wheels.min() - _OVERHANG, wheels.max() + _OVERHANG, np.nan]
+            bogies.append([ends, [rail(wheels).mean() + heights.frame] * 3])
         for car in self.cars:
             places = [wheels.mean() for wheels in car.bogies]
             levels = [rail(wheels).mean() for wheels in car.bogies]
-            for wheels, level in zip(car.bogies, levels, strict=True):
-                ends = [wheels.min() - _OVERHANG, wheels.max() + _OVERHANG, np.nan]
-                bogies.append([ends, [level + heights.frame] * 3])
             tilt = 0.0
             if len(places) > 1:
                 tilt = (levels[0] - levels[-1]) / (places[0] - places[-1])
@@ -267,13 +331,28 @@ def _joined(lines: list) -> Path:
 def train_outline(train: AnyTrain, first_axle: float = 0.0) -> TrainOutline:
     """Return the outline of a train whose first axle is at a place, m."""
     wheels = np.array([first_axle - axle.delay for axle in train.placed_axles])
-    cars = [_car_outline(car, first_axle) for car in train.formation if car.vehicle is not None]
+    cars = [
+        coach
+        for car in train.formation
+        if car.vehicle is not None
+        for coach in _coaches(car, first_axle)
+    ]
     return TrainOutline(wheels, tuple(cars))
 
 
-def _car_outline(car: Car, first_axle: float) -> CarOutline:
-    middle, half = first_axle - car.centre, _BODY_SHARE * drawn_length(car.vehicle)
+def _coaches(car: Car, first_axle: float) -> list[CarOutline]:
+    """Return the car body of a car, or each coach of an articulated one."""
+    middle, vehicle = first_axle - car.centre, car.vehicle
     bogies: dict[str, list[float]] = {}
     for wheel in car.wheels:
         bogies.setdefault(wheel.body, []).append(middle + wheel.x)
-    return CarOutline((middle - half, middle + half), tuple(map(np.array, bogies.values())))
+    places = {name: np.array(own) for name, own in bogies.items()}
+    ends, result = coach_ends(vehicle, _BODY_SHARE), []
+    for name, (rear, front) in ends.items():
+        beside = {
+            end for s in vehicle.springs for end in (s.from_, s.to) if name in (s.from_, s.to)
+        }
+        own = [wheels for bogie, wheels in places.items() if bogie in beside or len(ends) == 1]
+        own = tuple(own or places.values())
+        result.append(CarOutline((middle + rear, middle + front), own))
+    return result

@@ -17,6 +17,7 @@ from .outlines import (
     WHEEL_RADIUS,
     Motion,
     VehicleOutline,
+    drawn_length,
     is_long,
     mode_motion,
     zigzag,
@@ -27,6 +28,7 @@ __all__ = ["modes_of_equal_frequency", "vehicle", "vehicle_mode", "what_moves"]
 
 _EDGE, _BODY, _MOVED = "#34495e", "#e8eef4", style_of("displacement_z").colour
 _DAMPER_BESIDE = 0.24  # m, from the spring
+_ONE_CAR = 32.0  # m, the longest vehicle whose views stand side by side
 _VERBS = {"y": "sways", "z": "bounces", "roll": "rolls", "pitch": "pitches", "yaw": "yaws"}
 
 
@@ -46,23 +48,48 @@ def vehicle(vehicle: Vehicle, axes: Sequence[Axes] | None = None) -> np.ndarray:
     ndarray of Axes, shape (3,)
     """
     axes, outline, long = _three_axes(axes, vehicle), VehicleOutline(vehicle), is_long(vehicle)
-    side, top, front = axes
+    side, _, front = axes
     _draw_at_rest(axes, outline, edge=_EDGE, fill=_BODY, dampers=True)
     _frame_views(axes, outline, below=2.7 if long else 0.6, room=0.9 if long else 0.4)
-    for body in vehicle.bodies:
-        (x, _, z), half = outline.boxes[body.name].centre, outline.boxes[body.name].half
-        text = f"{literal(body.name)}\n{body.mass / 1e3:.4g} t"
-        ax, y, size = (side, z, 9) if half[2] > 0.4 else (top, 0.0, 7.5)
-        ax.text(x, y, text, ha="center", va="center", size=size, zorder=4)
-    places, sides = outline.wheels("side"), outline.wheels("front")
+    _name_bodies(axes, outline)
+    places, sides, room = outline.wheels("side"), outline.wheels("front"), _crowded(vehicle)
+    if room > 1.0:
+        side.set_ylim(bottom=-2.7 * room)
+        front.set_ylim(bottom=-1.5)
     for a, b in zip(places[:-1], places[1:], strict=True):
-        _dimension(side, a, b, -0.75, f"{b - a:.4g} m")
+        _dimension(side, a, b, -0.75 * room, f"{b - a:.4g} m", 0.08 * room)
     if long and vehicle.length:
         half = vehicle.length / 2
-        _dimension(side, -half, half, -1.6, f"length {vehicle.length:.4g} m")
+        text = f"length {vehicle.length:.4g} m"
+        _dimension(side, -half, half, -1.6 * room, text, 0.08 * room)
     if len(sides) > 1:
         _dimension(front, sides[0], sides[-1], -0.75, f"{sides[-1] - sides[0]:.3g} m")
     return np.array(axes, dtype=object)
+
+
+def _name_bodies(axes: Sequence[Axes], outline: VehicleOutline) -> None:
+    """Write names and masses: of high bodies in the side view, of bogies from above.
+
+    Of wheelsets, too close for names, the title of the view from above says how many there are.
+    """
+    side, top, _ = axes
+    vehicle, wheelsets = outline.vehicle, outline.vehicle.wheelsets
+    several = len(vehicle.car_bodies) > 1
+    for body in vehicle.bodies:
+        if body in wheelsets:
+            continue
+        (x, _, z), half = outline.boxes[body.name].centre, outline.boxes[body.name].half
+        text = f"{literal(body.name)}\n{body.mass / 1e3:.4g} t"
+        ax, y, size = (side, z, 9) if half[2] > 0.4 else (top, 0.0, 7.5)
+        # The ends of two coaches meet above the bogie that they share.
+        behind = {"fc": _BODY, "ec": "none", "pad": 0.8} if several and ax is top else None
+        ax.text(x, y, text, ha="center", va="center", size=size, zorder=4, bbox=behind)
+    if wheelsets:
+        masses = sorted({f"{body.mass / 1e3:.4g}" for body in wheelsets}, key=float)
+        text = " to ".join(dict.fromkeys((masses[0], masses[-1])))
+        sets = "wheelset" if len(wheelsets) == 1 else "wheelsets"
+        words = f"{VIEW_NAMES['top']}; {len(wheelsets)} {sets} of {text} t"
+        top.set_title(words, loc="left", fontsize="small")
 
 
 def vehicle_mode(
@@ -144,11 +171,21 @@ def _three_axes(axes: Sequence[Axes] | None, vehicle: Vehicle) -> list[Axes]:
     import matplotlib.pyplot as plt
 
     mosaic, size, ratios = [["side", "top", "front"]], (FIGURE_WIDTH, 3.4), {}
-    if is_long(vehicle):
+    layout = "compressed"
+    if _crowded(vehicle) > 1.0:
+        # Compressed, all views would be as narrow as the one looking forward.
+        mosaic, layout, size = [["side"], ["top"], ["front"]], "constrained", (FIGURE_WIDTH, 5.6)
+        ratios = {"height_ratios": [1.7, 1.0, 2.0]}
+    elif is_long(vehicle):
         mosaic, size = [["side", "front"], ["top", "."]], (FIGURE_WIDTH, 4.4)
         ratios = {"width_ratios": [5.0, 1.15], "height_ratios": [1.5, 1.0]}
-    _, axes = plt.subplot_mosaic(mosaic, figsize=size, layout="compressed", **ratios)
+    _, axes = plt.subplot_mosaic(mosaic, figsize=size, layout=layout, **ratios)
     return [axes[view] for view in VIEWS]
+
+
+def _crowded(vehicle: Vehicle) -> float:
+    """Return how many times longer than one long car a vehicle is drawn, at least 1."""
+    return max(1.0, drawn_length(vehicle) / _ONE_CAR)
 
 
 def _draw_at_rest(
@@ -181,7 +218,7 @@ def _draw_springs(
     """Draw springs and dampers where they can be seen."""
     if view == "top":
         return
-    for spring in outline.vehicle.springs:
+    for spring in outline.springs:
         foot, head = outline.spring(spring, motion)[:, VIEWS[view]]
         ax.plot(*zigzag(foot, head).T, color=edge, lw=0.9, zorder=3)
         if dampers and any(spring.damping):
@@ -232,8 +269,8 @@ def _frame_views(axes: Sequence[Axes], outline: VehicleOutline, below: float, ro
         ax.set_title(VIEW_NAMES[view], loc="left", fontsize="small")
 
 
-def _dimension(ax: Axes, a: float, b: float, height: float, text: str) -> None:
-    """Draw a dimension line from a to b, its text below."""
+def _dimension(ax: Axes, a: float, b: float, height: float, text: str, below: float = 0.08) -> None:
+    """Draw a dimension line from a to b, its text so far below (m)."""
     arrow = {"arrowstyle": "<->", "lw": 0.8, "color": "k", "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", (a, height), (b, height), arrowprops=arrow)
-    ax.text((a + b) / 2, height - 0.08, text, ha="center", va="top", size=7.5)
+    ax.text((a + b) / 2, height - below, text, ha="center", va="top", size=7.5)

@@ -188,9 +188,9 @@ def _cars(outline: TrainOutline, scale: float, head: float) -> str:
         rear, front = car.ends
         body = {"x": scale * rear, "y": _RAIL - 46, "width": scale * (front - rear)}
         parts.append(element("rect", **body, height=28, rx=3))
-        for wheels in car.bogies:
-            rear, front = scale * wheels.min() - 4, scale * wheels.max() + 4
-            parts.append(element("rect", x=rear, y=_RAIL - 15, width=front - rear, height=5))
+    for wheels in outline.frames:
+        rear, front = scale * wheels.min() - 4, scale * wheels.max() + 4
+        parts.append(element("rect", x=rear, y=_RAIL - 15, width=front - rear, height=5))
     place = f"translate({head:.1f} 0)"
     line = {"fill": "#fbeee4", "stroke": _FORCE, "stroke-width": 1.4, "transform": place}
     return f"<g data-train='' {attributes(line)}>{''.join(parts)}</g>"

@@ -151,7 +151,7 @@ class _ModeDrawing(Drawing):
             moved = outline.moved(still, name, self._motion)
             fill = "none" if view == "top" and box.on_top else "#0072B218"
             self._add_part("polygon", view, still, moved, 1.8, fill)
-        for spring in outline.vehicle.springs if view != "top" else ():
+        for spring in outline.springs if view != "top" else ():
             lines = []
             for motion in ({}, self._motion):
                 line = np.zeros((8, 3))

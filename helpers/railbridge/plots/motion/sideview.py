@@ -76,7 +76,7 @@ class SideView:
         self.exaggeration = round_down(_LARGEST / scale / largest) if largest > 0.0 else 1.0
         self.per_metre = scale * self.exaggeration
         self.numbers = [self.per_metre * number for number in metres]
-        self._springs = list(dict.fromkeys(self._ends(s) for s in vehicle.springs))
+        self._springs = list(dict.fromkeys(self._ends(s) for s in self._outline.springs))
         pressed = max(
             np.abs(sum(w[0] * self.numbers[h] for h, w in self._stretch(ride, *spring))).max()
             for ride in range(len(rides))
@@ -123,8 +123,7 @@ class SideView:
         """Draw the car of a ride with its middle at `middle` and the rail at `level`, px."""
         thin, thick = ({"stroke": colour, "stroke-width": width} for width in (1.2, 1.8))
         for low, high, x in self._springs:
-            foot = WHEEL_RADIUS if low == "rail" else self._boxes[low].centre[2]
-            foot += 0.0 if low == "rail" else self._boxes[low].half[2]
+            foot = self._outline.top(low)
             head = self._boxes[high].centre[2] - self._boxes[high].half[2]
             ends = [self._height(low, foot), self._height(high, head)]
             points = zigzag(*(np.array([0.0, end / self._scale]) for end in ends))
