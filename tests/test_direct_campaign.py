@@ -2,8 +2,8 @@
 
 Decks of 0.3 to 15 t/m, of one span or two, on rigid or elastic bearings; cars in space or in their
 plane, with and without mass in their wheels, on contacts of 2e8 to 3e9 N/m; every way of loading;
-8 to 95 m/s. A few cases run always; `RAILBRIDGE_CAMPAIGN=500 pytest -s tests/test_direct_campaign.py`
-runs five hundred and prints what was worst and how the fixed points were found.
+8 to 95 m/s. A few cases run always; five hundred, with how each fixed point was found, by
+`RAILBRIDGE_CAMPAIGN=500 pytest -s tests/test_direct_campaign.py`.
 """
 
 import os

@@ -155,3 +155,35 @@ def test_a_car_that_carries_nothing_has_no_unloading():
     track = rb.Track(lateral=rb.Harmonic(1e-3, wavelength=10.0))
     run = rb.cross(train, DECK, track, speed=20.0)
     assert np.isnan(run.wheel_unloading).all() and said(run) == []
+
+
+WHEELED = rb.with_wheelsets(rb.planar_car(CAR), mass=1800.0)
+SHORT = rb.Track(rb.Harmonic(7e-3, wavelength=2.5))
+
+
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+def test_a_wheel_that_leaves_the_rail_is_named_with_place_and_time():
+    options = {"speed": 60.0, "lead_in": 60.0, "tail": 0.1, "time_step": 1e-3}
+    run = rb.cross(rb.Train(WHEELED), DECK, SHORT, contact="hertz", **options)
+    (text,) = (t for t in said(run) if "leaves the rail" in t)
+    off = run.parted
+    samples = max(
+        len(part) for row in off for part in "".join("x" if o else " " for o in row).split()
+    )
+    assert f"leaves the rail for {samples:g} ms at t = " in text and "of car 1" in text
+    pulled = rb.cross(rb.Train(WHEELED), DECK, SHORT, **options)
+    (text,) = (t for t in said(pulled) if "pulls on the rail" in t)
+    assert text.endswith("it would lift off, which contact = 'hertz' computes.")
+
+
+def test_the_way_that_auto_took_is_told():
+    level = {"speed": 60.0, "lead_in": 0.0, "tail": 0.1}
+    run = rb.cross(rb.Train(WHEELED), DECK, **level)
+    assert run.settings.interaction == "direct"
+    (text,) = (t for t in said(run) if "auto" in t)
+    assert (
+        "interaction = auto: solved directly, since wheels stand on stiff contacts (195 Hz)."
+        in text
+    )
+    asked = rb.cross(rb.Train(WHEELED), DECK, interaction="direct", **level)
+    assert not any("auto" in t for t in said(asked))

@@ -3,6 +3,7 @@
 import inspect
 import re
 import tracemalloc
+import warnings
 from dataclasses import fields, replace
 
 import numpy as np
@@ -214,3 +215,54 @@ def test_constant_loads_are_not_charged_for_passes():
         needed.append(bytes_needed(train, DECK, settings))
     assert needed[0] == needed[1] < 1e9
     check(train, DECK, rb.Track(), speed=8.0)
+
+
+# ---- how train and deck meet
+
+WHEELED = rb.with_wheelsets(rb.planar_car(CAR), mass=1800.0)
+
+
+@pytest.mark.parametrize(
+    ("vehicle", "options", "taken"),
+    [
+        (CAR, {}, "iterate"),
+        (WHEELED, {}, "direct"),
+        (WHEELED, {"iterations": 4}, "iterate"),
+        (WHEELED, {"relaxation": 0.5}, "iterate"),
+        (WHEELED, {"tolerance_of": "displacement"}, "iterate"),
+        (WHEELED, {"interaction": "iterate"}, "iterate"),
+        (WHEELED, {"interaction": "rigid"}, "rigid"),
+        (WHEELED, {"contact": "hertz"}, "direct"),
+        (CAR, {"interaction": "direct"}, "direct"),
+    ],
+)
+def test_auto_takes_the_direct_solution_where_contacts_are_stiff(vehicle, options, taken):
+    s = check(rb.Train(vehicle), DECK, rb.Track(), speed=20.0, **options)
+    assert s.interaction == taken
+    assert s.auto == ("interaction" not in options)
+
+
+@pytest.mark.parametrize(
+    ("train", "options", "words"),
+    [
+        (rb.Train(CAR), {"contact": "hertz"}, "contact = 'hertz': .*the suspension.*wheelsets"),
+        (rb.AxleTrain([0.0], [1e5]), {"contact": "hertz"}, "bare axle loads have no contacts"),
+        (rb.Train(WHEELED), {"contact": "hertz", "interaction": "iterate"}, "^interaction = 'iter"),
+        (rb.Train(WHEELED), {"contact": "hertz", "interaction": "rigid"}, "Use 'direct' or 'auto'"),
+        (rb.Train(WHEELED), {"contact": "Hertz"}, "contact = 'Hertz'"),
+        (rb.Train(WHEELED), {"loads": "condensed"}, "loads = 'condensed': .*feeds energy"),
+    ],
+)
+def test_contacts_that_cannot_be(train, options, words):
+    with pytest.raises(rb.InputError, match=words):
+        check(train, DECK, rb.Track(), speed=20.0, **options)
+
+
+def test_condensed_loads_of_wheels_on_stiff_contacts_do_blow_up(monkeypatch):
+    """Why they are refused: with the refusal taken away forces grow without end."""
+    monkeypatch.setattr("railbridge.settings._refuse_condensed", lambda *_: None)
+    options = {"speed": 20.0, "loads": "condensed", "lead_in": 0.0, "tail": 0.0}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        run = rb.cross(rb.Train(WHEELED), DECK, **options)
+    assert np.abs(run.wheel_forces).max() > 1e3 * WHEELED.weight

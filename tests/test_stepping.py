@@ -33,8 +33,9 @@ def run_of(amplitude, step, ratio=0.01, damping=None, **options):
 
 
 @pytest.mark.parametrize(
-    ("amplitude", "parts"), [pytest.param(2e-4, False, id="pressed"), pytest.param(1e-3, True, id="parted")]
-)  # fmt: skip
+    ("amplitude", "parts"),
+    [pytest.param(2e-4, False, id="pressed"), pytest.param(1e-3, True, id="parted")],
+)
 @pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
 def test_hertzian_contact_is_that_of_the_differential_equations(amplitude, parts):
     times = np.arange(0.0, 0.5, 2.5e-4)
@@ -116,7 +117,7 @@ def test_one_contact_by_hand():
     # The force follows p alone: carried = known - answer p.
     more = law - load + k * stretch
     answer = np.array([[-1.0]])
-    found = pressing(-(law - more), answer, load, depth, np.zeros(1))
+    found = pressing(-(law - more), answer, load, depth)
     assert found == pytest.approx(more, rel=1e-9)
 
 
@@ -125,6 +126,6 @@ def test_a_contact_that_is_pulled_carries_nothing():
     # Nearly rigid wheels: the linear contact would pull by 100 kN.
     answer = -0.9 * np.eye(2)
     linear = np.array([1e5, -8e4])
-    p = pressing(linear, answer, load, depth, np.zeros(2))
+    p = pressing(linear, answer, load, depth)
     carried = -(linear + answer @ p)
     assert abs(carried[0]) < 1e-6 and carried[1] == pytest.approx(8e4)

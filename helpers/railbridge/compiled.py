@@ -185,28 +185,45 @@ def _solve(a, b):
 @_compiled
 def _press(count, linear, answer, load, depth, p):
     """Find p of Hertzian contacts in place, see `stepping.pressing`; return whether it settled."""
-    slope, step = np.empty((count, count)), np.empty((count, 1))
-    largest = 0.0
+    inverse, matrix = np.empty((count, count + 1)), np.empty((count, count))
+    free, d = np.empty((count, 1)), np.empty((count, 1))
+    force, step = np.empty((count, 1)), np.empty((count, 1))
     for i in range(count):
-        largest = max(largest, load[i])
+        for j in range(count):
+            inverse[i, j] = 1.0 if i == j else 0.0
+            matrix[i, j] = answer[i, j]
+        inverse[i, count] = linear[i]
+    _solve(matrix, inverse)
+    for i in range(count):
+        k = 1.5 * load[i] / depth[i]
+        free[i, 0] = depth[i] - (load[i] - inverse[i, count]) / k
+        d[i, 0] = free[i, 0]
     for _ in range(MOST):
         for i in range(count):
+            share = max(d[i, 0] / depth[i], 0.0)
+            force[i, 0] = load[i] * share * np.sqrt(share)
+        for i in range(count):
             k = 1.5 * load[i] / depth[i]
-            carried = -linear[i]
+            step[i, 0] = d[i, 0] - free[i, 0]
             for j in range(count):
-                carried -= answer[i, j] * p[j]
-            share = max(1.0 - (load[i] - carried + p[i]) / (k * depth[i]), 0.0)
-            root = np.sqrt(share)
-            step[i, 0] = carried - load[i] * share * root
-            for j in range(count):
-                slope[i, j] = (root - 1.0) * answer[i, j]
-            slope[i, i] += root
-        _solve(slope, step)
+                opening = -((1.0 if i == j else 0.0) + inverse[i, j]) / k
+                step[i, 0] += opening * force[j, 0]
+                root = np.sqrt(max(d[j, 0] / depth[j], 0.0))
+                matrix[i, j] = opening * 1.5 * load[j] / depth[j] * root
+            matrix[i, i] += 1.0
+        _solve(matrix, step)
         most = 0.0
         for i in range(count):
-            p[i] -= step[i, 0]
-            most = max(most, abs(step[i, 0]))
-        if most <= TOLERANCE * largest:
+            d[i, 0] -= step[i, 0]
+            most = max(most, abs(step[i, 0]) / depth[i])
+        if most <= TOLERANCE:
+            for i in range(count):
+                share = max(d[i, 0] / depth[i], 0.0)
+                force[i, 0] = load[i] * share * np.sqrt(share)
+            for i in range(count):
+                p[i] = -inverse[i, count]
+                for j in range(count):
+                    p[i] -= inverse[i, j] * force[j, 0]
             return True
     return False
 
@@ -292,7 +309,6 @@ def _march(
                     for i in range(d):
                         value += direct[n, w, i] * u[i]
                     linear[own + w] = value
-                    p[own + w] = more[c, now - 1, w] if now else 0.0
                 if not here:
                     for w in range(count):
                         for i in range(count):

@@ -204,12 +204,14 @@ def _pulling(run: Crossing) -> list[Remark]:
     i, k = np.unravel_index(np.argmax(unloading), unloading.shape)
     wheel, t = run.train.wheels[i], run.time[k]
     others = int(np.sum(unloading.max(axis=1) > 1.0)) - 1
+    wheelsets = all(vehicle.wheelsets for vehicle, _ in run.train.kinds())
     text = (
         f"Wheel {wheel.number} of car {wheel.car} pulls on the rail by "
         f"{run.wheel_forces[i, 1, k] / 1e3:.3g} kN (unloading {unloading[i, k]:.3g}) at "
         f"t = {t:.4g} s, {_place(run.settings.speed * t - wheel.delay, run.deck.length)}"
         + f", and {others} other wheel{'s' * (others > 1)} too" * bool(others)
-        + ": it would lift off, which is not computed."
+        + ": it would lift off, which "
+        + ("contact = 'hertz' computes." if wheelsets else "is not computed.")
     )
     return [ResultWarning("", text)]
 

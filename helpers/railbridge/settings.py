@@ -193,13 +193,7 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
         _ = [vehicle.front for vehicle, _ in train.kinds()]  # which each of them must have
     if asked.contact == "hertz":
         _refuse_other_contacts(train)
-    if asked.loads == "condensed" and asked.interaction != "rigid" and _stiff(train):
-        allowed = (
-            "with wheels on stiff contacts feeds energy into the deck, since a wheel loads it "
-        )
-        allowed += "elsewhere than where it feels it"
-        remedy = "Use 'wheels' or 'bogies', or interaction = 'rigid'"
-        raise InputError("loads", asked.loads, allowed, remedy)
+    _refuse_condensed(train, asked)
     step = _time_step(train, deck, track, asked)
     advance = asked.speed * step
     chosen = {
@@ -230,6 +224,17 @@ def _interaction(train: AnyTrain, asked: Options) -> str:
 def _stiff(train: AnyTrain) -> bool:
     """Whether wheels stand on stiff contacts."""
     return any(vehicle.highest_frequency > STIFF_CONTACT for vehicle, _ in train.kinds())
+
+
+def _refuse_condensed(train: AnyTrain, asked: Options) -> None:
+    """Refuse one force for a car whose wheels feel the deck stiffly somewhere else."""
+    if asked.loads == "condensed" and asked.interaction != "rigid" and _stiff(train):
+        allowed = (
+            "with wheels on stiff contacts feeds energy into the deck, since a wheel loads it "
+        )
+        allowed += "elsewhere than where it feels it"
+        remedy = "Use 'wheels' or 'bogies', or interaction = 'rigid'"
+        raise InputError("loads", asked.loads, allowed, remedy)
 
 
 def _refuse_other_contacts(train: AnyTrain) -> None:

@@ -29,7 +29,7 @@ more than its tangent, is the solution of
 
     p = P(d0 - e) - P0 + k e,       e = (y - u) / k,
 
-for all wheels at once, by Newton's method in each step. Cars are then stepped over the whole record
+for all wheels at once, by Newton's method in each step (`pressing`). Cars are then stepped over the whole record
 from the start of their run-up.
 """
 
@@ -50,7 +50,7 @@ from .trains import rail_input
 __all__ = ["CarSteps", "Marched", "Plan", "handed_on", "march", "plan", "pressing", "step"]
 
 TOLERANCE = 1e-13
-"""Of a contact's force in a step, share of the largest static wheel force."""
+"""Of how deep a contact is pressed in a step, share of its depth at rest."""
 MOST = 60
 """Newton's steps in one sample."""
 
@@ -476,9 +476,9 @@ def _press(
     cars = [plan.cars[own.car] for own in met]
     ends = np.cumsum([0, *(len(own.u) // 2 for own in met)])
     linear, answer = np.zeros(ends[-1]), np.zeros((ends[-1], ends[-1]))
-    guess, pressed = np.zeros(ends[-1]), np.zeros((2, ends[-1]))
+    pressed = np.zeros((2, ends[-1]))
     for own, car, a, b in zip(met, cars, ends[:-1], ends[1:], strict=True):
-        forces, at = own.force, k - plan.windows[own.car, 0]
+        forces = own.force
         answer[a:b, a:b] = car.direct[1::2, 1::2]
         if gain is not None:
             per = car.direct[1::2] @ own.per
@@ -487,17 +487,21 @@ def _press(
         else:
             linear[a:b] = forces[1::2]
         pressed[:, a:b] = plan.pressed[own.car]
-        guess[a:b] = more[own.car][:, at - 1] if at else 0.0
-    found = pressing(linear, answer, *pressed, guess)
+    found = pressing(linear, answer, *pressed)
     for own, a, b in zip(met, ends[:-1], ends[1:], strict=True):
         more[own.car][:, k - plan.windows[own.car, 0]] = found[a:b]
     return found
 
 
 def pressing(
-    linear: np.ndarray, answer: np.ndarray, load: np.ndarray, depth: np.ndarray, guess: np.ndarray
+    linear: np.ndarray, answer: np.ndarray, load: np.ndarray, depth: np.ndarray
 ) -> np.ndarray:
     """Return p of Hertzian contacts, N, shape (wheels,).
+
+    With H the answer, the contacts carry ``P = -(linear + H p)`` and are pressed by ``d = d0 - (P0
+    - P + p) / k``. Without p that is ``d + A P = d*``, where A is how much a contact opens in the
+    step under its own force and d* how deep it would be without one. P(d) is convex and grows, so
+    that Newton's method falls to the solution from d*, without turning back.
 
     Parameters
     ----------
@@ -507,24 +511,25 @@ def pressing(
         What p adds to them.
     load, depth : ndarray, shape (wheels,)
         P0 (N) and d0 (m).
-    guess : ndarray, shape (wheels,)
-        Where Newton's method starts.
 
     Raises
     ------
     ArithmeticError
         Where it does not settle.
     """
-    p, k = guess.copy(), 1.5 * load / depth
-    identity = np.eye(len(p))
+    k, count = 1.5 * load / depth, len(load)
+    solved = np.linalg.solve(answer, np.column_stack([np.eye(count), linear]))
+    inverse, of_linear = solved[:, :count], solved[:, count]
+    opening = -(np.eye(count) + inverse) / k[:, None]
+    free = depth - (load - of_linear) / k
+    d = free.copy()
     for _ in range(MOST):
-        carried = -(linear + answer @ p)
-        share = np.maximum(1.0 - (load - carried + p) / (k * depth), 0.0)
-        wrong = carried - load * share**1.5
-        tangent = k * np.sqrt(share)
-        slope = (tangent / k)[:, None] * (answer + identity) - answer
-        step = np.linalg.solve(slope, wrong)
-        p = p - step
-        if np.max(np.abs(step)) <= TOLERANCE * load.max():
-            return p
+        share = np.maximum(d / depth, 0.0)
+        force, tangent = load * share**1.5, k * np.sqrt(share)
+        wrong = d + opening @ force - free
+        step = np.linalg.solve(np.eye(count) + opening * tangent, wrong)
+        d = d - step
+        if np.max(np.abs(step) / depth) <= TOLERANCE:
+            force = load * np.maximum(d / depth, 0.0) ** 1.5
+            return -(inverse @ force + of_linear)
     raise ArithmeticError("a contact force does not settle within a step")

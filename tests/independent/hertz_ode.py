@@ -1,7 +1,7 @@
 """A sprung mass on a wheel on a beam, with a contact after Hertz, as plain differential equations.
 
-Written for the tests from Newton's laws, without the package: scipy's adaptive integrator at a tight
-tolerance, so that a wheel that leaves the rail does so between any samples.
+Written for the tests from Newton's laws, without the package: scipy's adaptive integrator at a
+tight tolerance, so that a wheel that leaves the rail does so between any samples.
 """
 
 from dataclasses import dataclass
@@ -29,11 +29,9 @@ class Rider:
 
 
 def crossing(rider, speed, length, ei, mass, ratio, modes, rail, times, start=0.0, unilateral=True):
-    """Return wheel force on the beam (N, down positive), mid-span displacement (m) and energy (J).
+    """Return wheel force on the beam (N, down positive) and mid-span displacement (m).
 
-    The wheel is at x = speed t + start (m) and stands still relative to the rail at first. `rail`
-    gives r(x) and is level before. Energy counts masses, springs, contact and the beam, about the
-    static position of everything on a rigid level track.
+    The wheel is at x = speed t + start (m) and at rest at first; `rail` gives r(x).
     """
     n = np.arange(1, modes + 1)
     omega = (n * np.pi / length) ** 2 * np.sqrt(ei / mass)
@@ -67,7 +65,7 @@ def crossing(rider, speed, length, ei, mass, ratio, modes, rail, times, start=0.
     found = solve_ivp(
         rates, (times[0], times[-1]), y0, "DOP853", times, rtol=1e-10, atol=1e-13, max_step=5e-4
     )
-    q, zw, zb = found.y[:modes].T, found.y[2 * modes], found.y[2 * modes + 1]
+    q, zw = found.y[:modes].T, found.y[2 * modes]
     forces = np.array(
         [force(speed * t + start, a, b) for t, a, b in zip(times, q, zw, strict=True)]
     )
