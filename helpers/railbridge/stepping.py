@@ -29,8 +29,8 @@ more than its tangent, is the solution of
 
     p = P(d0 - e) - P0 + k e,       e = (y - u) / k,
 
-for all wheels at once, by Newton's method in each step (`pressing`). Cars are then stepped over the whole record
-from the start of their run-up.
+for all wheels at once, by Newton's method in each step (`pressing`). Cars are then stepped over the
+whole record from the start of their run-up.
 """
 
 from __future__ import annotations
