@@ -306,7 +306,7 @@ ROLLING = {"wheelset_mass": ("1.8", "t"), "wheelset_roll_inertia": ("1", "t m2")
         ),
         (
             {"primary_longitudinal_damping": ("1e4", "N s/m")},
-            "primary_longitudinal_damping = 10000.0: needs longitudinal_stiffness",
+            "primary_longitudinal_damping = 10000.0: needs a stiffness along",
         ),
     ],
 )
