@@ -37,6 +37,9 @@ def test_static_loads_and_weight_are_those_of_static_wheelsets():
     rolling = with_wheelsets(heavy, roll_inertia=1000.0)
     assert rolling.weight == pytest.approx(heavy.weight, rel=1e-12)
     assert rolling.static_wheelset_mass == 0.0
+    # The weight that was there already does not press the contact twice.
+    light = with_wheelsets(CAR, mass=1800.0, roll_inertia=1000.0)
+    assert rolling.contact_stiffness == pytest.approx(light.contact_stiffness, rel=1e-12)
     loads = [[c.static_load for c in v.contacts] for v in (rolling, heavy)]
     assert loads[0] == pytest.approx(loads[1], rel=1e-9)
     assert [axle.x for axle in rolling.axles] == [axle.x for axle in heavy.axles]
@@ -137,6 +140,22 @@ def test_wheelsets_are_known_and_hang_in_their_bogies():
         ours, theirs = (rb.Train(v).car(1).condensation(loads) for v in (rolling, CAR))
         assert ours.offsets == pytest.approx(theirs.offsets)
         assert ours.matrix.shape == theirs.matrix.shape
+
+
+def test_what_stands_on_one_axle_is_no_wheelset_if_it_is_the_car():
+    """A heavy mass on one wheel with a light one on top; and the other way round."""
+    bodies = [
+        rb.Body(name, mass, (0.0, 0.0, 0.0), (0.0, 0.0, z), ("z",))
+        for name, mass, z in (("low", 5e3, 1.0), ("high", 1e3, 2.0))
+    ]
+    springs = (
+        rb.Spring("low", "rail", (0.0, 0.0, 0.0), (0.0, 1e6), (0.0, 0.0)),
+        rb.Spring("high", "low", (0.0, 0.0, 1.5), (0.0, 1e5), (0.0, 0.0)),
+    )
+    assert rb.Vehicle("heavy below", tuple(bodies), springs).wheelsets == ()
+    bodies[0] = replace(bodies[0], mass=500.0)
+    car = rb.Vehicle("heavy above", tuple(bodies), springs)
+    assert [b.name for b in car.wheelsets] == ["low"] and car.contacts[0].carries == "high"
 
 
 def shared_axle():
