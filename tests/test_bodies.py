@@ -147,3 +147,21 @@ def test_springs_along_the_track_couple_yaw_and_pitch_by_hand():
     arms = np.zeros(len(joined.labels))
     arms[i], arms[j] = 1.0 - 1.4, -(1.0 - 0.9)
     assert more == pytest.approx(5e6 * np.outer(arms, arms), abs=1e-6)
+
+
+def test_a_rod_off_the_middle_ties_pitch_to_yaw():
+    """One rod at y = 0.5, 0.3 m above the centre: u_x = 0.3 theta_y - 0.5 theta_z."""
+    car = Body("car", 1e4, (1e4, 2e4, 2e4), (0.0, 0.0, 1.0))
+    post = Body("post", 1e4, (1e4, 2e4, 2e4), (0.0, 0.0, 1.3), ("z",))
+    springs = [
+        Spring(b, "rail", (x, y, 0.0), (1e6, 1e6), (0.0, 0.0))
+        for b in ("car", "post")
+        for x in (1.0, -1.0)
+        for y in (0.7, -0.7)
+    ]
+    rod = Spring("post", "car", (0.0, 0.5, 1.3), (0.0, 0.0), (0.0, 0.0), 5e6)
+    plain, held = (Vehicle("rod", (car, post), tuple(s)) for s in (springs, [*springs, rod]))
+    arms = np.zeros(len(held.labels))
+    arms[held.labels.index("car pitch")], arms[held.labels.index("car yaw")] = 0.3, -0.5
+    more = held.stiffness_matrix - plain.stiffness_matrix
+    assert more == pytest.approx(5e6 * np.outer(arms, arms), abs=1e-6)

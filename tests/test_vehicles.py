@@ -590,6 +590,16 @@ def test_with_every_part_the_plane_is_that_of_the_whole():
     )
 
 
+def test_in_the_plane_dampers_add_up_that_relax_alike():
+    """Left and right as one where k/c is the same; else side by side."""
+    car = with_everything()
+    assert len([s for s in planar_car(car).springs if s.series_stiffness]) == 1
+    left = replace(car.springs[0], series_stiffness=(2e6, 9e6))
+    plane = planar_car(replace(car, springs=(left, *car.springs[1:])))
+    own = [(s.damping[1], s.series_stiffness[1]) for s in plane.springs if s.series_stiffness]
+    assert sorted(own) == [(3e4, 3e6), (3e4, 9e6)]
+
+
 def test_with_every_part_direct_solution_and_iteration_agree():
     train = rb.Train(with_everything())
     deck = rb.deck("viaduct36")

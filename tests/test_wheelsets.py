@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
 
 import railbridge as rb
 from railbridge.hertz import HertzContact
@@ -36,6 +37,9 @@ def test_static_loads_and_weight_are_those_of_static_wheelsets():
     rolling = with_wheelsets(heavy, roll_inertia=1000.0)
     assert rolling.weight == pytest.approx(heavy.weight, rel=1e-12)
     assert rolling.static_wheelset_mass == 0.0
+    # The weight that was there already does not press the contact twice.
+    light = with_wheelsets(CAR, mass=1800.0, roll_inertia=1000.0)
+    assert rolling.contact_stiffness == pytest.approx(light.contact_stiffness, rel=1e-12)
     loads = [[c.static_load for c in v.contacts] for v in (rolling, heavy)]
     assert loads[0] == pytest.approx(loads[1], rel=1e-9)
     assert [axle.x for axle in rolling.axles] == [axle.x for axle in heavy.axles]
@@ -138,6 +142,22 @@ def test_wheelsets_are_known_and_hang_in_their_bogies():
         assert ours.matrix.shape == theirs.matrix.shape
 
 
+def test_what_stands_on_one_axle_is_no_wheelset_if_it_is_the_car():
+    """A heavy mass on one wheel with a light one on top; and the other way round."""
+    bodies = [
+        rb.Body(name, mass, (0.0, 0.0, 0.0), (0.0, 0.0, z), ("z",))
+        for name, mass, z in (("low", 5e3, 1.0), ("high", 1e3, 2.0))
+    ]
+    springs = (
+        rb.Spring("low", "rail", (0.0, 0.0, 0.0), (0.0, 1e6), (0.0, 0.0)),
+        rb.Spring("high", "low", (0.0, 0.0, 1.5), (0.0, 1e5), (0.0, 0.0)),
+    )
+    assert rb.Vehicle("heavy below", tuple(bodies), springs).wheelsets == ()
+    bodies[0] = replace(bodies[0], mass=500.0)
+    car = rb.Vehicle("heavy above", tuple(bodies), springs)
+    assert [b.name for b in car.wheelsets] == ["low"] and car.contacts[0].carries == "high"
+
+
 def shared_axle():
     """Two coaches on three axles; the middle wheelset hangs in both."""
     coaches = tuple(
@@ -202,6 +222,51 @@ def test_a_train_on_wheelsets_crosses_a_bridge():
         for v in (rolling, heavy)
     ]
     assert len(deck_light[0].coupling.axles.starts) == len(deck_light[1].coupling.axles.starts)
+
+
+def test_a_wheelset_below_a_mass_on_a_beam_against_an_ode_of_its_own():
+    """Sprung mass, wheelset and three modes of a simple beam as one stiff ODE by Radau."""
+    m, M, k, c, kc, speed = 1200.0, 8e3, 9e5, 2e4, 4e8, 25.0
+    span, per_metre, stiffness, ratio = 20.0, 9e3, 9e9, 0.02
+    # Gravity acts on all; the static sag of springs is counted from a rigid, level rail.
+    number = np.arange(1, 4)
+    omega = (number * np.pi / span) ** 2 * np.sqrt(stiffness / per_metre)
+    modal = per_metre * span / 2
+    static = (m + M) * 9.81
+
+    def slope(t, y):
+        q, v, (z, zs, vz, vs) = y[:3], y[3:6], y[6:]
+        shape = np.sin(number * np.pi * speed * t / span) * (t <= span / speed)
+        press = kc * (z - shape @ q)  # of the contact, up on the rail less static
+        spring = k * (zs - z) + c * (vs - vz)
+        a = (shape * (press - static)) / modal - 2 * ratio * omega * v - omega**2 * q
+        return np.concatenate([v, a, [vz, vs, (spring - press) / m, -spring / M]])
+
+    time = np.linspace(0.0, span / speed, 401)
+    run = solve_ivp(slope, (0, time[-1]), np.zeros(10), "Radau", time, rtol=1e-9, atol=1e-12)
+    sag = np.sin(number * np.pi / 2) @ run.y[:3]
+    shapes = np.sin(np.outer(number, np.pi * speed * time / span))
+    force = kc * (run.y[6] - np.sum(shapes * run.y[:3], axis=0)) - static
+    deck = rb.Beam("beam", (span,), per_metre, stiffness).deck(3, ratio)
+    car = with_wheelsets(rb.sprung_mass("m", M, k, c), mass=m, contact_stiffness=kc / 2)
+
+    def missed(step):
+        found = rb.cross(rb.Train(car), deck, speed=speed, time_step=step, interaction="direct")
+        own = deck.shapes(np.array([span / 2]))[0, :, 1] @ found.state.q  # of the modes alone
+        there = (
+            np.interp(time, found.time, own),
+            np.interp(time, found.time, found.wheel_forces[0, 1]),
+        )
+        exact = sag, force
+        inner = slice(2, -2)  # the rail breaks its angle at the ends
+        return [
+            np.abs((a - b)[inner]).max() / np.abs(b).max()
+            for a, b in zip(there, exact, strict=True)
+        ]
+
+    coarse, fine = missed(2e-4), missed(1e-4)
+    assert fine[0] < 2e-4 and fine[1] < 5e-3
+    assert fine[1] < 0.5 * coarse[1]
 
 
 @given(seed=st.integers(0, 99), frequency=st.floats(0.0, 300.0), held=st.booleans())

@@ -333,13 +333,13 @@ class _Axles:
         yaw = self.inertia["yaw_inertia"]
         if yaw is not None and not (wide and stiffness):
             allowed = "nothing holds the wheelset in yaw"
-            remedy = "Give longitudinal_stiffness of the springs above it, or leave it out"
+            remedy = "Give the springs above it a stiffness along the track, or leave it out"
             raise InputError("yaw_inertia", yaw, allowed, remedy)
         if wide and stiffness and yaw is None:
             remedy = "Give it, kg m2: springs along the track let the wheelset yaw"
             raise InputError("yaw_inertia", None, "is missing", remedy)
         if damping and not stiffness:
-            allowed = "needs longitudinal_stiffness, without which the wheelset does not yaw"
+            allowed = "needs a stiffness along the track, without which the wheelset does not yaw"
             raise InputError("longitudinal_damping", damping, allowed)
         for name in ("roll_inertia", "yaw_inertia"):
             if self.inertia[name] is not None:

@@ -268,7 +268,11 @@ def test_wheelsets_of_a_car_s_table_are_bodies_on_contact_springs(tmp_path):
             {"primary_longitudinal_stiffness": ("10", "MN/m")},
             "primary_longitudinal_stiffness = 10000000.0: has no meaning without wheelset_mass",
         ),
-        ({"wheelset_mass": ("1", "t")}, "wheelset_roll_inertia: is missing"),
+        (
+            {"wheelset_mass": ("1", "t")},
+            "wheelset_roll_inertia: is missing. Give it, kg m2; for the weight alone call the mass "
+            "static_wheelset_mass",
+        ),
         ({"wheelset_mas": ("1", "t")}, "row wheelset_mas: unknown parameter. Did you mean"),
         (
             {"wheelset_mass": ("1", "t"), "gauge": ("0", "m")},
@@ -306,7 +310,7 @@ ROLLING = {"wheelset_mass": ("1.8", "t"), "wheelset_roll_inertia": ("1", "t m2")
         ),
         (
             {"primary_longitudinal_damping": ("1e4", "N s/m")},
-            "primary_longitudinal_damping = 10000.0: needs longitudinal_stiffness",
+            "primary_longitudinal_damping = 10000.0: needs a stiffness along",
         ),
     ],
 )

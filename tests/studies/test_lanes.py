@@ -68,6 +68,60 @@ def test_a_lane_is_the_crossing_itself(changes):
         assert values[count:] == pytest.approx(expected[count:], rel=1e-6, abs=1e-7, nan_ok=True)
 
 
+PARTS = """
+[[body]]
+name = "car"
+mass = 30e3
+inertia = [4e4, 1e6, 1e6]
+position = [0.0, 0.0, 1.8]
+freedoms = "y z roll pitch yaw"
+"""
+for _place, _name in ((6.0, "front"), (-6.0, "rear")):
+    PARTS += f"""
+[[wheelset]]
+name = "{_name}"
+x = {_place}
+mass = 1500.0
+roll_inertia = 900.0
+yaw_inertia = 1000.0
+[[anti_roll_bar]]
+from = "car"
+to = "{_name}"
+stiffness = 1e6
+"""
+    for _y in (1.0, -1.0):
+        PARTS += f"""
+[[spring]]
+from = "car"
+to = "{_name}"
+at = [{_place}, {_y}, 0.8]
+stiffness = [8e5, 9e5]
+damping = [2e4, 3e4]
+longitudinal_stiffness = 5e6
+longitudinal_damping = 1e4
+series_stiffness = [3e6, 4e6]
+"""
+
+
+@pytest.mark.parametrize("interaction", ["rigid", "iterate"])
+def test_a_lane_of_wheelsets_and_dampers_in_series_is_the_crossing_itself(tmp_path, interaction):
+    (tmp_path / "parts.toml").write_text(PARTS, encoding="utf-8")
+    passes = 1 if interaction == "iterate" else None
+    changes = {
+        "train": {"vehicle": str(tmp_path / "parts.toml"), "cars": 1},
+        "run.loads": "wheels", "run.iterations": passes, "run.interaction": interaction,
+        "run.lead_in": 0.0,
+    }  # fmt: skip
+    case = rb.case("paper").replace(changes)
+    asked = asked_of(outputs_at(case.deck, ("displacement_z",), [18.0]), tuple(lanes.KNOWN))
+    jobs = [job_of(case, case.train)]
+    assert eligible(case.deck, jobs[0], asked.outputs, False)
+    (values,) = run_lanes(case.deck, jobs, asked.outputs, asked.numbers)
+    expected = one_by_one(case, advance_of(jobs[0].settings), asked)
+    assert values[:2] == pytest.approx(expected[:2], rel=1e-9)
+    assert values[6:] == pytest.approx(expected[6:], rel=1e-9, nan_ok=True)
+
+
 def test_lanes_do_not_depend_on_each_other():
     """Bit for bit: alone, among others, at another place."""
     case = rb.case("paper").replace(BASE | {"run.tail": 0.1})

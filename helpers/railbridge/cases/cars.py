@@ -127,6 +127,9 @@ def _refuse_mixture(p: dict[str, float]) -> None:
         remedy = "Give static_wheelset_mass for its weight only, wheelset_mass for its inertia too"
         allowed = "static_wheelset_mass is given too, never both"
         raise InputError("wheelset_mass", p["wheelset_mass"], allowed, remedy)
+    if p.get("wheelset_mass") and "wheelset_roll_inertia" not in p:
+        remedy = "Give it, kg m2; for the weight alone call the mass static_wheelset_mass"
+        raise InputError("wheelset_roll_inertia", None, "is missing", remedy)
     if "wheelset_mass" in p:
         return
     for key in _OF_WHEELSETS.values():
