@@ -191,9 +191,7 @@ class Rail:
                     result[on, j] += factor[:, None] * coefficients[own, k]
         return places, result
 
-    def _on_bed(
-        self, edges: np.ndarray, coefficients: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def _on_bed(self, edges: np.ndarray, coefficients: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the convolution with K as cubics through exact values and slopes."""
         pole = (1.0 - 1.0j) / self.length
         first, last = edges[0] - self.reach, edges[-1] + self.reach

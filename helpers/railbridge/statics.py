@@ -308,6 +308,9 @@ def static_extremes(train: AnyTrain, track_offset: float, line: Line) -> tuple[f
     # The peaks of the line itself decide: only its kinks next to the largest values matter.
     size = np.abs(line.influence(near)[:, 0, 1:]).max(axis=1)
     near = near[np.argsort(size)[-8:]]
+    if start < 0.0:  # on sleepers every kink and jump has become three
+        breaks = _breaks(line, end + start, -start)[1:-1]
+        near = np.concatenate([near, breaks - just, breaks + just])
     step = grid[1] - start
     first = np.arange(start, end + delays.max() + step, step)
     first = np.unique(np.concatenate([first, (delays[:, None] + near).ravel()]))
