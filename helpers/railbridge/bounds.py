@@ -141,9 +141,7 @@ BOUNDS = {
         "a bearing's share of the deck's weight over its vertical spring", 0.0, 0.1, "m",
         "elastomers (EN 1337-3) give way by millimetres",
     ),
-    "sleepers": Bound(
-        "distance of sleepers", 0.3, 1.5, "m", "0.6 on most lines", _IN_M, (0.4, 1.2)
-    ),
+    "sleepers": Bound("distance of sleepers", 0.3, 1.5, "m", "0.6 on most lines"),
     "rail_stiffness": Bound(
         "bending stiffness of both rails", 1e6, 5e7, "N m2", "49E1 7.6e6, UIC 60 1.28e7",
         ((1e3, "given in kN m2"), (1e6, "given in MN m2")), (3e6, 3e7),
