@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import cumulative_trapezoid, quad
+from tests.independent.rail_on_bed import RailOverDeck
 
 import railbridge as rb
 from railbridge import rails
 from railbridge.guideways import PiecewiseCubic
 from railbridge.results import ENVELOPE
-from tests.independent.rail_on_bed import RailOverDeck
 
 BED = rb.Rail(bending_stiffness=1.28e7, foundation=1e8)
 SLEEPERS = rb.Rail(spread=0.6)
@@ -29,7 +29,9 @@ def elastic(length=36.0, rail=None, spring=2e9):
     """A deck like viaduct36 on springs."""
     bearings = tuple(rb.Bearing(x, ("y", "roll"), stiffness={"z": spring}) for x in (0.0, length))
     damping = rb.rayleigh(0.03, (3.307, 16.3))
-    return rb.Beam("soft", (length,), 12e3, 8.9355e10, bearings=bearings).deck(None, damping, rail=rail)
+    return rb.Beam("soft", (length,), 12e3, 8.9355e10, bearings=bearings).deck(
+        None, damping, rail=rail
+    )
 
 
 def random_function(seed, edges=(0.0, 2.0, 5.0, 5.5, 10.0)):
