@@ -312,6 +312,6 @@ def test_a_rail_too_wide_for_the_deck_is_refused_by_its_key():
 def test_a_rail_in_another_unit_is_doubted():
     soft = changed(rail={"bending_stiffness": 1.28e4, "foundation": 1e5})
     case = {"deck": soft, "train": {"vehicle": "xia2000"}, "run": {"speed": 20.0}}
-    said = " ".join(map(str, rb.Case(case).doubts()))
+    said = " ".join(map(str, rb.Case(case).doubts))
     assert "deck.rail.bending_stiffness = 12800 N m2" in said and "given in kN m2?" in said
     assert "deck.rail.foundation = 100000 N/m2" in said and "given in kN/m2?" in said
