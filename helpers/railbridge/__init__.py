@@ -25,6 +25,7 @@ from .crossing import NotConvergedError, cross
 from .decks import Deck, History, rayleigh, rayleigh_ratio
 from .errors import InputError, InputWarning, ResultWarning
 from .notices import remarks
+from .rails import Rail
 from .results import Crossing
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .tracks import FadeIn, Harmonic, Level, Notch, Rails, Table, Track
@@ -64,7 +65,7 @@ _MODULES = {
 __all__ = [
     "AntiRollBar", "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "CONDENSED", "Case",
     "Crossing", "Deck", "FadeIn", "Harmonic", "History", "InputError", "InputWarning", "Level",
-    "LoadModel", "NotConvergedError", "Notch", "Pads", "Passage", "Rails", "ResultWarning",
+    "LoadModel", "NotConvergedError", "Notch", "Pads", "Passage", "Rail", "Rails", "ResultWarning",
     "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box",
     "car_parameters", "case", "check", "compared", "cross", "data_root", "deck", "deck_from_table",
     "deviation_percent", "hslm_b", "load_model", "open_study", "planar_car", "rayleigh",

@@ -141,6 +141,16 @@ BOUNDS = {
         "a bearing's share of the deck's weight over its vertical spring", 0.0, 0.1, "m",
         "elastomers (EN 1337-3) give way by millimetres",
     ),
+    "sleepers": Bound("distance of sleepers", 0.3, 1.5, "m", "0.6 on most lines"),
+    "rail_stiffness": Bound(
+        "bending stiffness of both rails", 1e6, 5e7, "N m2", "49E1 7.6e6, UIC 60 1.28e7",
+        ((1e3, "given in kN m2"), (1e6, "given in MN m2")), (3e6, 3e7),
+    ),
+    "foundation": Bound(
+        "stiffness of the bed below both rails", 5e6, 2e9, "N/m2",
+        "soft pads 2e7, ballast 5e7 to 3e8, hard pads on concrete some 5e8",
+        ((1e3, "given in kN/m2"), (1e6, "given in MN/m2")), (2e7, 8e8),
+    ),
     "damping_ratio": Bound(
         "damping ratio of the first vertical mode", 0.0, 0.2, "",
         "EN 1991-2, Table 6.6: 0.005 to 0.03; foot bridges with dampers 0.1",

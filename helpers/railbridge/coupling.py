@@ -28,7 +28,7 @@ from .guideways import Guideway, Stations
 from .response import SampledModes
 from .settings import Settings
 from .tracks import Track
-from .trains import AnyTrain, Car, Wheel
+from .trains import AnyTrain, Car, Passage, Wheel
 from .vehicles import Vehicle, WheelForces, WheelResponse
 
 __all__ = [
@@ -119,7 +119,7 @@ class Coupling:
         A `Deck`; or, where another program solves the deck, only how it moves.
     settings : Settings
     time : ndarray, shape (n,)
-        s; zero when the first axle enters.
+        s; zero when the first axle enters, negative before.
     cars : tuple of CoupledCar
         Front to back.
     axles : Stations
@@ -359,7 +359,7 @@ def prepare(train: AnyTrain, deck: Guideway, track: Track, settings: Settings) -
                 car,
                 own,
                 car.static_forces,
-                _window(car, deck.length, passage.advance, s.samples),
+                _window(car, deck, passage),
                 count + np.arange(len(car.axles)),
                 len(load_delays) + np.arange(len(condensation.offsets)),
                 matrix,
@@ -368,7 +368,7 @@ def prepare(train: AnyTrain, deck: Guideway, track: Track, settings: Settings) -
         )
         count += len(car.axles)
         load_delays += (car.centre - condensation.offsets).tolist()
-    sampling = s.speed, s.time_step, s.samples
+    sampling = s.speed, s.time_step, s.samples, s.before
     axle_delays = np.array([axle.delay for axle in train.placed_axles])
     axles = deck.stations(axle_delays, *sampling)
     # Wheel loads act where the deck is felt.
@@ -378,7 +378,7 @@ def prepare(train: AnyTrain, deck: Guideway, track: Track, settings: Settings) -
         train=train,
         deck=deck,
         settings=s,
-        time=frozen(np.arange(s.samples) * s.time_step),
+        time=frozen((np.arange(s.samples) - s.before) * s.time_step),
         cars=tuple(cars),
         axles=axles,
         loads=loads,
@@ -387,15 +387,17 @@ def prepare(train: AnyTrain, deck: Guideway, track: Track, settings: Settings) -
     )
 
 
-def _window(car: Car, length: float, advance: float, samples: int) -> slice:
-    """Return the samples while a car is on the deck.
+def _window(car: Car, deck: Guideway, passage: Passage) -> slice:
+    """Return the samples while a car is on the deck, or near enough to feel it through the rail.
 
     From one before its first axle enters, so that its motion starts from rest there.
     """
     first, last = car.axles[0].delay, car.axles[-1].delay
-    start = max(0, int(np.ceil(first / advance - 1e-4)) - 1)
-    stop = start + int(np.ceil((length + last - first) / advance - 1e-4)) + 3
-    return slice(start, min(stop, samples))
+    entered = int(np.ceil((first - deck.reach) / passage.advance - 1e-4)) + passage.before
+    start = max(0, entered - 1)
+    length = deck.length + 2 * deck.reach
+    stop = start + int(np.ceil((length + last - first) / passage.advance - 1e-4)) + 3
+    return slice(start, min(stop, passage.samples))
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,7 +25,7 @@ mode tells nothing of where it acts: beta is then zero.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
 
@@ -293,7 +293,7 @@ class Deck(Guideway):
 
     Attributes
     ----------
-    name, length, tracks, width, track_height
+    name, length, tracks, width, track_height, rail
         See `Guideway`.
     shapes : PiecewiseCubic
         Mass-normalised shapes of m modes (1/sqrt(kg), and 1/(m sqrt(kg)) for twist).
@@ -328,6 +328,7 @@ class Deck(Guideway):
     remarks: tuple[Remark, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         # Copies, since a deck is made once for many crossings.
         for name in ("frequencies_hz", "damping_ratios"):
             object.__setattr__(self, name, frozen(np.array(getattr(self, name), dtype=float)))
@@ -355,6 +356,8 @@ class Deck(Guideway):
         derivative: int = 0,
     ) -> np.ndarray:
         """Return an influence line: a result at one place under a unit load at each of many.
+
+        Of a load on the deck itself. A wheel's, where a `rail` spreads its load, is `under_load`.
 
         Parameters
         ----------
@@ -395,6 +398,12 @@ class Deck(Guideway):
         derivative = errors.integer("derivative", derivative, most=2)
         of_one_output = line.influence(along, derivative)[:, 0]
         return of_one_output[:, COMPONENTS.index(load)]
+
+    def under_load(self, line: Line) -> Line:
+        """Return the line of an output for loads on the rail; the same where there is none."""
+        if self.rail is None:
+            return line
+        return replace(line, influence=self.under_rail(line.influence))
 
     def sampled(self, time_step: float) -> SampledModes:
         """What gives modal coordinates and velocities from modal forces, at a time step (s)."""

@@ -17,6 +17,7 @@ from numpy.lib.stride_tricks import as_strided
 
 from . import errors
 from .errors import InputError, brief
+from .rails import Rail
 
 __all__ = ["COMPONENTS", "Guideway", "PiecewiseCubic", "Stations"]
 
@@ -47,6 +48,11 @@ class PiecewiseCubic:
 
     edges: np.ndarray
     coefficients: np.ndarray
+
+    @cached_property
+    def under_rails(self) -> dict[Rail, PiecewiseCubic]:
+        """What they become under a rail, kept for the last one; see `Guideway.under_rail`."""
+        return {}
 
     def __call__(self, x: np.ndarray, derivative: int = 0) -> np.ndarray:
         """Return values at x (m), shape (k,), or their first or second derivative by x.
@@ -239,6 +245,15 @@ class Guideway:
     track_height : float
         Rails above the deck axis, m. A lateral wheel force then twists the deck, M_x = -h F_y, and
         the rail moves sideways by v - h theta.
+    rail : Rail or None
+        How the rails spread a wheel's load and carry on over the deck's ends. None: a wheel loads
+        the deck at its own place, and only while it is on the deck.
+
+    Raises
+    ------
+    InputError
+        A rail that spreads a load over more than a third of the deck: d or 1 / b is then probably
+        not in m. Spans are not asked, since two bearing lines of a pier may stand close together.
     """
 
     __repr__ = brief
@@ -249,6 +264,18 @@ class Guideway:
     tracks: dict[str, float] = field(default_factory=dict)
     width: float | None = None
     track_height: float = 0.0
+    rail: Rail | None = None
+
+    def __post_init__(self) -> None:
+        if self.rail is None:
+            return
+        rail = errors.instance("rail", self.rail, Rail)
+        if rail.length > self.length / 3:
+            field = "spread" if rail.spread is not None else "foundation"
+            allowed = f"spreads a load over {rail.length:.3g} m to either side, "
+            allowed += f"must be at most a third of the deck, {self.length / 3:.3g} m"
+            remedy = "Give m, N m2 and N/m2; sleepers are some 0.6 m apart"
+            raise InputError(f"rail.{field}", getattr(rail, field), allowed, remedy)
 
     @property
     def coordinates(self) -> int:
@@ -282,34 +309,77 @@ class Guideway:
             return errors.number("track_offset", track, unit="m")
         return errors.place("track_offset", track, (-self.width / 2, self.width / 2))
 
+    # ---- the rail
+
+    @property
+    def reach(self) -> float:
+        """How far before and behind the deck a load still counts, m; 0 without a rail."""
+        return 0.0 if self.rail is None else self.rail.reach
+
+    @property
+    def parts(self) -> tuple[tuple[float, float], ...]:
+        """Where a load acts on the deck at once, m beside it, and which share; see `Rail.parts`."""
+        return ((0.0, 1.0),) if self.rail is None else self.rail.parts
+
+    def under_rail(self, function: PiecewiseCubic) -> PiecewiseCubic:
+        """Return what a function along the deck is for a load on the rail: spread, or as it is."""
+        if self.rail is None:
+            return function
+        known = function.under_rails
+        if self.rail not in known:
+            known.clear()  # one is kept: a slider may meet many rails
+            own = self.rail.under(function.edges, function.coefficients)
+            known[self.rail] = PiecewiseCubic(*own)
+        return known[self.rail]
+
+    # ---- loads that travel
+
+    def samples_within(
+        self, delays: np.ndarray, advance: float, samples: int, before: int, beyond: float
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return first samples and numbers of samples with a load on the deck or near it.
+
+        A load counts while -beyond <= x <= length + beyond, with a ten-thousandth of a step of
+        tolerance, so that rounding does not decide whether a sample at the very end is on the deck.
+
+        Parameters
+        ----------
+        delays : ndarray, shape (s,)
+            m behind x = V t.
+        advance : float
+            m a sample.
+        samples, before : int
+            In all, and before t = 0.
+        beyond : float
+            m.
+        """
+        slack = 1e-4
+        delays = np.asarray(delays)
+        starts = np.ceil((delays - beyond) / advance - slack).astype(int) + before
+        behind = (delays + (self.length + beyond)) / advance
+        last = np.floor(behind + slack).astype(int) + before
+        return starts, np.minimum(last, samples - 1) - starts + 1
+
     def stations(
-        self, delays: np.ndarray, speed: float, time_step: float, samples: int
+        self, delays: np.ndarray, speed: float, time_step: float, samples: int, before: int = 0
     ) -> Stations:
         """Prepare loads that are `delays` (m, shape (s,)) behind x = V t.
 
-        A load counts while 0 <= x <= length, with a ten-thousandth of a step of tolerance, so that
-        rounding does not decide whether a sample at the very end is on the deck.
+        A load counts while it is on the deck, and on the rail as far beside it as `reach`; see
+        `samples_within`.
         """
         advance = speed * time_step
-        slack = 1e-4
-        starts = np.ceil(np.asarray(delays) / advance - slack).astype(int)
-        last = np.floor((np.asarray(delays) + self.length) / advance + slack).astype(int)
-        counts = np.minimum(last, samples - 1) - starts + 1
-        first = starts * advance - delays
+        starts, counts = self.samples_within(delays, advance, samples, before, self.reach)
+        first = (starts - before) * advance - delays + self.reach
         pairs, shapes = self._pairs
         keys = np.round(first / advance, 9)
         unique, which = np.unique(keys, return_inverse=True)
         places = [advance * (key + np.arange(counts[keys == key].max())) for key in unique]
         ends = np.cumsum([len(x) for x in places])[:-1]
+        along = np.concatenate(places) - self.reach
+        along = np.clip(along, -self.reach, self.length + self.reach)
         values, slopes = (
-            np.split(
-                np.ascontiguousarray(
-                    shapes(np.clip(np.concatenate(places), 0.0, self.length), d)[:, 0].T
-                ),
-                ends,
-                axis=1,
-            )
-            for d in (0, 1)
+            np.split(np.ascontiguousarray(shapes(along, d)[:, 0].T), ends, axis=1) for d in (0, 1)
         )
         return Stations(
             starts,
@@ -324,8 +394,9 @@ class Guideway:
     def _pairs(self) -> tuple[tuple[np.ndarray, np.ndarray], PiecewiseCubic]:
         """The (mode, component) pairs that are not zero, sorted by component.
 
-        And their shapes as components of one function.
+        And their shapes, as met on the rail, as components of one function.
         """
-        component, mode = np.nonzero(np.any(self.shapes.coefficients != 0.0, axis=(0, 1)).T)
-        coefficients = np.ascontiguousarray(self.shapes.coefficients[:, :, None, mode, component])
-        return (mode, component), PiecewiseCubic(self.shapes.edges, coefficients)
+        met = self.under_rail(self.shapes)
+        component, mode = np.nonzero(np.any(met.coefficients != 0.0, axis=(0, 1)).T)
+        coefficients = np.ascontiguousarray(met.coefficients[:, :, None, mode, component])
+        return (mode, component), PiecewiseCubic(met.edges, coefficients)

@@ -360,6 +360,10 @@ def _places(deck: Deck) -> list[InputWarning]:
     found += doubt("height", "deck.track_height", deck.track_height)
     for name, y in deck.tracks.items():
         found += doubt("off_axis", f"deck.tracks.{name}", y)
+    if deck.rail is not None:
+        found += doubt("sleepers", "deck.rail.spread", deck.rail.spread)
+        found += doubt("rail_stiffness", "deck.rail.bending_stiffness", deck.rail.bending_stiffness)
+        found += doubt("foundation", "deck.rail.foundation", deck.rail.foundation)
     return found
 
 

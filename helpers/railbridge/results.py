@@ -159,7 +159,7 @@ class Crossing:
 
     @property
     def time(self) -> np.ndarray:
-        """s, shape (n,); zero when the first axle enters."""
+        """s, shape (n,); zero when the first axle enters, negative before; see `Deck.rail`."""
         return self.coupling.time
 
     def at(self, iteration: int) -> Crossing:
@@ -175,13 +175,12 @@ class Crossing:
         last at x = L; no window function. Eq. 3 depends on this choice.
         """
         first = self.coupling.cars[0]
-        advance = self.settings.passage.advance
-        reach = first.car.axles[-1].delay + self.deck.length
-        stop = int(np.floor(reach / advance + 1e-4)) + 1
+        own = self.settings.first_on_deck(first.car, self.deck)
+        stop = own.stop
         total = first.rigid[:, 1, :stop].sum(axis=0)
         added = self.passes[self.iteration][0][:, 1, : stop - first.window.start]
         total[first.window] += added.sum(axis=0)
-        return amplitude_spectrum(total, self.settings.time_step)
+        return amplitude_spectrum(total[own], self.settings.time_step)
 
     @cached_property
     def deviations(self) -> Deviations:
@@ -259,13 +258,15 @@ class Crossing:
     @cached_property
     def on_deck(self) -> np.ndarray:
         """Whether every wheel is on the deck, shape (wheels, n)."""
-        axles, result = self.coupling.axles, []
+        s, result = self.settings, []
+        axles = self.train.placed_axles
+        starts, counts = self.deck.samples_within(
+            np.array([axle.delay for axle in axles]), s.passage.advance, s.samples, s.before, 0.0
+        )
         sample = np.arange(len(self.time))
-        for c in self.coupling.cars:
-            for axle, station in zip(c.car.axles, c.axles, strict=True):
-                since = sample - axles.starts[station]
-                own = (since >= 0) & (since < axles.counts[station])
-                result += [own] * len(axle.wheels)
+        for axle, start, count in zip(axles, starts, counts, strict=True):
+            since = sample - start
+            result += [(since >= 0) & (since < count)] * len(axle.wheels)
         return frozen(np.array(result))
 
     @cached_property
@@ -566,4 +567,5 @@ class Crossing:
 
     def static_extremes(self, line: Line) -> tuple[float, float]:
         """Return the extremes while the static axle loads move over; see `static_extremes`."""
+        line = self.deck.under_load(line)
         return static_extremes(self.train, self.settings.track_offset, line)

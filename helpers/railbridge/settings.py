@@ -12,7 +12,7 @@ from .decks import Deck
 from .errors import InputError, Range, brief, check_fields
 from .guideways import Guideway
 from .tracks import Track
-from .trains import AnyTrain, AxleTrain, Passage
+from .trains import AnyTrain, AxleTrain, Car, Passage
 
 __all__ = [
     "COARSE_SAMPLES_PER_CONTACT", "COARSE_SAMPLES_PER_PERIOD", "LEAD_IN_SECONDS", "MEMORY_LIMIT",
@@ -79,7 +79,7 @@ class Options:
         that is not zero), whose blow on the dampers is not counted. On harmonic track a run-up that
         leaves more than 1 % of the steady forces unsettled is warned about.
     tail : float
-        s after the last axle has left.
+        s after the last axle has left, or has ceased to load the deck through a rail.
     tolerance : float
         How far the iteration may stop from its end; of what, says `tolerance_of`.
     tolerance_of : {"forces", "displacement"}
@@ -149,7 +149,10 @@ class Settings(Options):
     Attributes
     ----------
     samples : int
-        Samples from t = 0, when the first axle enters, to the end of the tail.
+        Samples in all, to the end of the tail.
+    before : int
+        How many of them are before t = 0, when the first axle enters: on a deck with a rail the
+        train is felt before.
     auto : bool
         Whether the interaction was chosen, not given.
     """
@@ -157,12 +160,20 @@ class Settings(Options):
     __repr__ = brief
 
     samples: int
+    before: int = 0
     auto: bool = False
 
     @property
     def passage(self) -> Passage:
         """How the train passes."""
-        return Passage(self.speed, self.time_step, self.samples, self.lead_in, self.excitation)
+        s = self
+        return Passage(s.speed, s.time_step, s.samples, s.lead_in, s.excitation, s.before)
+
+    def first_on_deck(self, car: Car, deck: Guideway) -> slice:
+        """Return the samples from t = 0 until a car's last axle leaves the deck: those of Eq. 3."""
+        reach = car.axles[-1].delay + deck.length
+        stop = int(np.floor(reach / self.passage.advance + 1e-4)) + 1
+        return slice(self.before, self.before + stop)
 
 
 def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
@@ -196,13 +207,15 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
     _refuse_condensed(train, asked)
     step = _time_step(train, deck, track, asked)
     advance = asked.speed * step
+    before, reach = int(np.ceil(deck.reach / advance)), deck.length + train.length + deck.reach
     chosen = {
         "interaction": _interaction(train, asked),
         "auto": asked.interaction == "auto",
         "time_step": step,
         "lead_in": _lead_in(asked, step),
         "track_offset": _track_offset(train, deck, asked.track_offset),
-        "samples": int(np.ceil((deck.length + train.length) / advance + asked.tail / step)) + 1,
+        "samples": int(np.ceil(reach / advance + asked.tail / step)) + 1 + before,
+        "before": before,
     }
     settings = Settings(**(vars(asked) | chosen))
     _refuse_size(train, deck, track, asked, settings)
@@ -347,7 +360,7 @@ def bytes_needed(train: AnyTrain, deck: Guideway, settings: Settings, points: in
     s, advance, cars = settings, settings.passage.advance, train.formation
     wheels, samples = len(train.wheels), s.samples
     longest = max(car.axles[-1].delay - car.axles[0].delay for car in cars)
-    on_deck = min((deck.length + longest) / advance + 3, samples)
+    on_deck = min((deck.length + 2 * deck.reach + longest) / advance + 3, samples)
     # Cars of one kind that meet the samples alike are run together, the others each by itself.
     runs = {
         (id(vehicle), round(car.axles[0].delay / advance % 1.0, 6))

@@ -7,6 +7,8 @@ An output that follows from the deck's state and loads (a `Line`) is
 with the influence line eta at the load's place x = V t - d. Where eta jumps or bends (an axle steps
 on, leaves, or passes the section) S does so between two samples. There the modes go on from the
 sample before, the forces F, which are smooth, are interpolated, and eta is taken on either side.
+
+Where a rail spreads the loads, eta is the spread line, see `decks.Deck.under_load`.
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ from functools import cached_property
 import numpy as np
 
 from .coupling import Coupling, DeckState, ForcesAdded
-from .decks import Line
+from .decks import Deck, Line
 from .response import moved_on
 from .trains import AnyTrain
 
@@ -97,7 +99,8 @@ class MovingLoads:
 
         Shape (lines, n).
         """
-        coupling = self.coupling
+        coupling, deck = self.coupling, self.coupling.deck
+        lines = [deck.under_load(line) for line in lines]
         total = np.zeros((len(lines), len(coupling.time)))
         stations, speed = coupling.loads, coupling.settings.speed
         for which in range(len(stations.tables)):
@@ -106,7 +109,7 @@ class MovingLoads:
             longest = members[np.argmax(stations.counts[members])]
             instants = coupling.time[stations.starts[longest] :][: stations.counts[longest]]
             x = speed * instants - coupling.load_delays[longest]
-            x = np.clip(x, 0.0, coupling.deck.length)
+            x = np.clip(x, -deck.reach, deck.length + deck.reach)
             values = np.array([line.influence(x)[:, 0].T for line in lines])
             couples = len(self.loads[members[0]]) == 5
             if couples:
@@ -134,7 +137,9 @@ class MovingLoads:
         time, values : ndarray, shape (2 instants,)
             s, and the output.
         """
-        met = [self._met(float(x)) for x in _breaks(line, self.coupling.deck.length)]
+        deck = self.coupling.deck
+        line = deck.under_load(line)
+        met = [self._met(float(x)) for x in _breaks(line, deck.length, deck.reach)]
         values = [line.modal @ each.modal + self._static_at(line, each) for each in met]
         return np.concatenate([each.time for each in met]), np.concatenate(values)
 
@@ -160,17 +165,19 @@ class MovingLoads:
         coupling, deck = self.coupling, self.coupling.deck
         speed, step = coupling.settings.speed, coupling.settings.time_step
         instants = np.unique((coupling.load_delays + place) / speed)
-        instants = np.repeat(instants[(instants >= 0.0) & (instants <= coupling.time[-1])], 2)
+        first, last = coupling.time[[0, -1]]
+        instants = np.repeat(instants[(instants >= first) & (instants <= last)], 2)
         just = _JUST * deck.length / speed
         time = instants + np.tile([-just, just], len(instants) // 2)
         when, station = self._on_deck(time)
         x = speed * time[when] - coupling.load_delays[station]
         # The sample before, and the share of the step since.
-        k = np.clip((instants / step).astype(int), 0, len(coupling.time) - 2)
-        s = np.clip(instants / step - k, 0.0, 1.0)
+        since = instants / step + coupling.settings.before
+        k = np.clip(since.astype(int), 0, len(coupling.time) - 2)
+        s = np.clip(since - k, 0.0, 1.0)
         load = self._load_at(station, k[when], s[when])
         omega = 2 * np.pi * deck.frequencies_hz[:, None]
-        if 0.0 < place < deck.length:
+        if not _steps_on(deck, place):
             # The modes pass a section smoothly.
             state = self.state
             q = _hermite(state.q, state.velocity * step, k, s)
@@ -184,11 +191,11 @@ class MovingLoads:
 
     def _on_deck(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return which loads are on the deck at some times: numbers of times, and of stations."""
-        front = self.coupling.settings.speed * time
+        front, deck = self.coupling.settings.speed * time, self.coupling.deck
         order = np.argsort(self.coupling.load_delays, kind="stable")
         delays = self.coupling.load_delays[order]
-        first = np.searchsorted(delays, front - self.coupling.deck.length)
-        count = np.searchsorted(delays, front, side="right") - first
+        first = np.searchsorted(delays, front - (deck.length + deck.reach))
+        count = np.searchsorted(delays, front + deck.reach, side="right") - first
         when = np.repeat(np.arange(len(time)), count)
         within = np.arange(len(when)) - np.repeat(np.cumsum(count) - count, count)
         return when, order[np.repeat(first, count) + within]
@@ -220,13 +227,13 @@ class MovingLoads:
     ) -> np.ndarray:
         """Return the modal forces of loads at places x (m), summed up by instant (modes, n)."""
         deck = self.coupling.deck
-        result = np.zeros((deck.coordinates, instants))
+        shapes, result = deck.under_rail(deck.shapes), np.zeros((deck.coordinates, instants))
         together = max(_LARGEST // (48 * deck.coordinates), 1)
         for first in range(0, len(x), together):
             some = slice(first, first + together)
-            part = np.einsum("kmc,kc->mk", deck.shapes(x[some]), load[some, :3])
+            part = np.einsum("kmc,kc->mk", shapes(x[some]), load[some, :3])
             if np.any(load[some, 3:]):
-                slope = deck.shapes(x[some], 1)
+                slope = shapes(x[some], 1)
                 part += (slope[:, :, 0] * load[some, 4:] - slope[:, :, 1] * load[some, 3:4]).T
             for own, shares in zip(result, part, strict=True):
                 own += np.bincount(when[some], shares, instants)
@@ -245,8 +252,16 @@ def _hermite(values: np.ndarray, rates: np.ndarray, k: np.ndarray, s: np.ndarray
     return values[..., k] + s * rise + s * (1.0 - s) * bend
 
 
-def _breaks(line: Line, length: float) -> np.ndarray:
-    """Return the places, m, where an influence line jumps or bends, ends of the deck included."""
+def _steps_on(deck: Deck, place: float) -> bool:
+    """Whether a load at a place (m) steps onto the deck, or off it: all at once or in part."""
+    ends = [end + offset for end in (0.0, deck.length) for offset, _ in deck.parts]
+    if deck.rail is None:
+        return not 0.0 < place < deck.length
+    return any(abs(place - end) <= _JUST * deck.length for end in ends)
+
+
+def _breaks(line: Line, length: float, reach: float = 0.0) -> np.ndarray:
+    """Return the places, m, where an influence line jumps or bends, and where it ends."""
     influence = line.influence
     h = np.diff(influence.edges)[:, None]
     powers = np.arange(4.0)[:, None, None]
@@ -259,7 +274,7 @@ def _breaks(line: Line, length: float) -> np.ndarray:
     for before, after, least in zip(end, start, (1e-6, _KINK), strict=True):
         size = np.abs(after).max(axis=0)
         bends |= np.any(np.abs(after[1:] - before[:-1]) > least * size + 1e-300, axis=1)
-    return np.concatenate([[0.0], influence.edges[1:-1][bends], [length]])
+    return np.concatenate([[-reach], influence.edges[1:-1][bends], [length + reach]])
 
 
 def static_extremes(train: AnyTrain, track_offset: float, line: Line) -> tuple[float, float]:
@@ -275,10 +290,11 @@ def static_extremes(train: AnyTrain, track_offset: float, line: Line) -> tuple[f
     track_offset : float
         m.
     line : Line
-        Its influence line runs along the deck.
+        Its influence line runs along the deck, and beside it where a rail spreads loads; see
+        `Deck.under_load`.
     """
     edges, axles = line.influence.edges, train.placed_axles
-    length = edges[-1]
+    start, end = edges[[0, -1]]
     delays = np.array([axle.delay for axle in axles])
     loads = -np.array(
         [
@@ -286,18 +302,22 @@ def static_extremes(train: AnyTrain, track_offset: float, line: Line) -> tuple[f
             for axle in axles
         ]
     )
-    grid = np.linspace(0.0, length, 501)
-    near = np.concatenate([edges - _JUST * length, edges + _JUST * length])
-    near = near[(near >= 0.0) & (near <= length)]
+    grid, just = np.linspace(start, end, 501), _JUST * (end - start)
+    near = np.concatenate([edges - just, edges + just])
+    near = near[(near >= start) & (near <= end)]
     # The peaks of the line itself decide: only its kinks next to the largest values matter.
     size = np.abs(line.influence(near)[:, 0, 1:]).max(axis=1)
     near = near[np.argsort(size)[-8:]]
-    first = np.arange(0.0, length + delays.max() + grid[1], grid[1])
+    if start < 0.0:  # on sleepers every kink and jump has become three
+        breaks = _breaks(line, end + start, -start)[1:-1]
+        near = np.concatenate([near, breaks - just, breaks + just])
+    step = grid[1] - start
+    first = np.arange(start, end + delays.max() + step, step)
     first = np.unique(np.concatenate([first, (delays[:, None] + near).ravel()]))
     total = np.zeros(len(first))
     for delay, load in zip(delays, loads, strict=True):
         x = first - delay
-        on = (x >= 0.0) & (x <= length)
+        on = (x >= start) & (x <= end)
         total[on] += line.influence(x[on])[:, 0] @ load
     noise = 1e-12 * float(np.abs(loads).max() * np.abs(line.influence(grid)).max())
     low, high = float(total.min()), float(total.max())

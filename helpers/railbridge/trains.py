@@ -217,12 +217,14 @@ class Passage:
     time_step : float
         s.
     samples : int
-        Samples from t = 0, when the first axle enters.
+        Samples in all.
     lead_in : float
         Run-up on the irregular track, m; see `FadeIn`.
     excitation : {"wheels", "car"}
         Whether every wheel meets the track at its own place, or all wheels of a car at the car's
         front end, length/2 ahead of its middle (a guess at the paper's reading).
+    before : int
+        How many of the samples are before t = 0, when the first axle enters.
     """
 
     speed: float
@@ -230,6 +232,7 @@ class Passage:
     samples: int
     lead_in: float = 0.0
     excitation: Literal["wheels", "car"] = "wheels"
+    before: int = 0
 
     @property
     def advance(self) -> float:
@@ -239,8 +242,8 @@ class Passage:
     def entry(self, car: Car) -> tuple[int, float]:
         """Return the sample at or before which a car's front axle enters, and the share behind."""
         steps = car.axles[0].delay / self.advance
-        sample = int(np.floor(steps + 1e-6))
-        return sample, max(round(steps - sample, 6), 0.0)
+        whole = int(np.floor(steps + 1e-6))
+        return whole + self.before, max(round(steps - whole, 6), 0.0)
 
 
 class AnyTrain:
@@ -369,7 +372,7 @@ class AnyTrain:
                     known[key] = np.zeros((*zeros(car).shape[:2], u.shape[-1]))
             first = known[key].shape[-1] - passage.samples - shift
             own = known[key][..., max(first, 0) : first + passage.samples]
-            # A car whose run-up starts after t = 0 stands on level track until then.
+            # A car whose run-up starts after the first sample stands on level track until then.
             result.append(np.pad(own, ((0, 0), (0, 0), (max(-first, 0), 0))) if first < 0 else own)
         return result
 

@@ -1,11 +1,14 @@
 """Deck files: what the keys mean, and how they are refused."""
 
 import copy
+import dataclasses
+import tomllib
 
 import numpy as np
 import pytest
 
 import railbridge as rb
+from railbridge import exchange
 from railbridge.beams.bearings import Bearing
 from railbridge.cases import objects as decks
 from railbridge.cases import shelf
@@ -434,7 +437,8 @@ def test_a_vehicle_file_may_have_wheelsets_and_every_part(tmp_path):
     assert car.anti_roll_bars == (rb.AntiRollBar("car", "front", 1e6),)
     held = {(s.longitudinal_stiffness, s.series_stiffness) for s in car.springs if not s.on_rail}
     assert held == {(5e6, (0.0, 4e6))}
-    case = {**rb.case("paper").content, "train": {"vehicle": str(coach(tmp_path)), "cars": 2}}
+    paper = rb.case("paper").replace({"run.loads": "wheels"}).content
+    case = {**paper, "train": {"vehicle": str(coach(tmp_path)), "cars": 2}}
     assert len(rb.Case(case).train.wheels) == 8
     small = rb.vehicle(coach(tmp_path, ("mass = 1500.0", "mass = 1500.0\nwheel_radius = 0.42")))
     assert small.wheelsets[0].position[2] == 0.42
@@ -518,3 +522,55 @@ def test_parts_of_vehicle_files_that_cannot_be_are_named(tmp_path, old, new, say
     with pytest.raises(InputError) as refused:
         rb.vehicle(path)
     assert says in str(refused.value)
+
+
+BED = {"bending_stiffness": 1.28e7, "foundation": 1e8}
+
+
+@pytest.mark.parametrize("rail", [{"spread": 0.6}, BED])
+def test_every_maker_of_decks_takes_a_rail(rail, tmp_path):
+    plain = rb.deck("viaduct36")
+    folder = exchange.export_modes(dataclasses.replace(plain, rail=rb.Rail(**rail)), tmp_path)
+    shipped = tomllib.loads(shelf.data_file("decks", "viaduct36_identified").read_text("utf-8"))
+    for name, deck in {
+        "beam": rb.deck_from_table("b", changed(rail=rail)),
+        "box": rb.deck_from_table("box", {**shipped, "rail": rail}),
+        "modes": rb.deck(folder),
+        "beside a file": rb.case("paper").replace({"deck.rail": rail}).deck,
+        "in Python": rb.deck("viaduct36", rail=rb.Rail(**rail)),
+    }.items():
+        assert deck.rail == rb.Rail(**rail), name
+    assert plain.rail is None and rb.case("paper").deck.rail is None
+
+
+@pytest.mark.parametrize(
+    ("rail", "words"),
+    [
+        ({"spread": 600.0}, "deck.rail.spread = 600.0: must be .* at most 5 m"),
+        ({"spread": 0.6, "foundation": 1e8}, "deck.rail.foundation .* give either"),
+        ({"foundation": 1e8}, "deck.rail.bending_stiffness: is missing"),
+        ({}, "deck.rail.spread: is missing"),
+        ({"sprad": 0.6}, "deck.rail.sprad: unknown key. Did you mean 'spread'"),
+        (0.6, "deck.rail = 0.6: must be a table"),
+        (BED | {"foundation": 100.0}, "deck.rail.foundation .* elastic length is 26.7 m"),
+    ],
+)
+def test_a_rail_of_a_table_is_refused_by_its_key(rail, words):
+    case = {"deck": changed(rail=rail), "train": {"vehicle": "xia2000"}, "run": {"speed": 20.0}}
+    with pytest.raises(InputError, match=words):
+        rb.Case(case)
+
+
+def test_a_rail_too_wide_for_the_deck_is_refused_by_its_key():
+    table = changed(length=3.0, bearing=[], rail={"spread": 1.2})
+    case = {"deck": table, "train": {"vehicle": "xia2000"}, "run": {"speed": 20.0}}
+    with pytest.raises(InputError, match=r"deck.rail.spread = 1.2: spreads a load over 1.2 m"):
+        rb.Case(case)
+
+
+def test_a_rail_in_another_unit_is_doubted():
+    soft = changed(rail={"bending_stiffness": 1.28e4, "foundation": 1e5})
+    case = {"deck": soft, "train": {"vehicle": "xia2000"}, "run": {"speed": 20.0}}
+    said = " ".join(map(str, rb.Case(case).doubts))
+    assert "deck.rail.bending_stiffness = 12800 N m2" in said and "given in kN m2?" in said
+    assert "deck.rail.foundation = 100000 N/m2" in said and "given in kN/m2?" in said

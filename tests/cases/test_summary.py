@@ -338,3 +338,22 @@ def test_the_dynamic_factor_is_that_of_the_side_with_the_larger_static_value(
     entry = summary._entries(run, history, {"shear_vertical": object()})["shear_vertical"]
     assert entry["static"] == pytest.approx(side, rel=1e-6)
     assert entry["dynamic_factor"] == pytest.approx(factor, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "rail", [None, {"spread": 0.6}, {"bending_stiffness": 1.28e7, "foundation": 1e8}]
+)
+def test_the_rail_is_told_and_what_counts_from_before_t_0_stays_right(rail):
+    case = rb.case("paper").replace({**COARSE, "deck.rail": rail})
+    run = case.run()
+    found = summarize(run, [18.0])
+    assert found["run"]["rail"] == rail
+    assert found["run"]["duration"] == pytest.approx(run.time[-1])
+    tables = {table.name: table for table in histories(run, [18.0])}
+    assert tables["points"].values[0][0] == pytest.approx(run.time[0])
+    # A wheel is on the deck from x = 0 to x = L, wherever the rail reaches.
+    whole = found["wheel_force_z"]["on_deck"]["min"]
+    wheel = next(w for w in run.train.wheels if (w.car, w.number) == (whole["car"], whole["wheel"]))
+    assert -0.1 <= 20.0 * whole["t"] - wheel.delay <= 36.1
+    factor = found["points"][0]["displacement_z"]["dynamic_factor"]
+    assert 0.9 < (factor["min"] if isinstance(factor, dict) else factor) < 1.5

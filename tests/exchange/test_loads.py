@@ -13,6 +13,7 @@ import railbridge as rb
 from railbridge import exchange
 from railbridge.exchange.loads import export_loads, nodal_loads
 from railbridge.exchange.staggered import begin
+from railbridge.guideways import PiecewiseCubic
 
 
 @pytest.fixture(scope="module")
@@ -221,3 +222,52 @@ def long_line(folder, elements):
     path = folder / "nodes.csv"
     path.write_text("# units: m, kg\nnode,x,y,z\n" + "".join(rows))
     return exchange.read_nodes(path).line()
+
+
+RAILS = [rb.Rail(spread=0.6), rb.Rail(bending_stiffness=1.28e7, foundation=1e8)]
+
+
+@pytest.mark.parametrize("rail", RAILS, ids=["sleepers", "bed"])
+@pytest.mark.parametrize("couples", [True, False])
+@pytest.mark.parametrize("line", [AXIS, PAIR], ids=["axis", "pair"])
+def test_a_rail_spreads_loads_over_the_nodes(rail, couples, line):
+    """The sums over all nodes: what arrives on the deck, and its moments about x = 0."""
+    deck = rb.deck("viaduct36", rail=rail)
+    run = rb.cross(TRAIN, deck, TRACK, loads="bogies", interaction="rigid", **OPTIONS)
+    found = nodal_loads(run, line, couples)
+    assert np.array_equal(found.time, run.time) and found.time[0] < 0.0
+    places = np.stack([np.repeat(line.x, line.y.shape[1]), line.y.ravel(), line.z.ravel()], axis=1)
+    moment = (
+        found.values[:, 3:].sum(axis=0)
+        + np.cross(places[:, None], found.values[:, :3].transpose(0, 2, 1)).sum(axis=0).T
+    )
+    # One and x along the deck, cubics of one piece.
+    one, along = np.eye(4)[0], np.array([0.0, 36.0, 0.0, 0.0])
+    known = PiecewiseCubic(np.array([0.0, 36.0]), np.array([one, along]).T[None, :, :, None])
+    under, want, coupling = deck.under_rail(known), np.zeros((6, len(run.time))), run.coupling
+    for delay, start, load in zip(
+        coupling.load_delays, coupling.loads.starts, coupling.station_loads(run.passes[0]),
+        strict=True,
+    ):  # fmt: skip
+        window = slice(start, start + load.shape[1])
+        x = 20.0 * run.time[window] - delay
+        (share, arm), (share_turn, turn) = under(x)[:, :, 0].T, under(x, 1)[:, :, 0].T
+        want[1, window] += share * load[0] + share_turn * load[4]
+        want[2, window] += share * load[1] - share_turn * load[3]
+        want[3, window] += share * load[2]
+        want[4, window] += turn * load[3] - arm * load[1]
+        want[5, window] += turn * load[4] + arm * load[0]
+    force = found.values[:, :3].sum(axis=0)
+    # Not where a sleeper stands on the deck's end, which rounding decides.
+    clear = np.abs(moment - want[3:]).max(axis=0) < 1e-6 * np.abs(want[4]).max()
+    assert np.mean(clear) > (0.98 if rail.spread else 0.9999)
+    assert force[:, clear] == pytest.approx(want[:3, clear], abs=1e-6 * np.abs(want[2]).max())
+    assert np.abs(want[2, clear]).max() > 585e3  # the whole car, and what the waves add
+
+
+def test_a_rail_gives_our_displacement_in_another_program():
+    ours = rb.cross(TRAIN, rb.deck("viaduct36", rail=RAILS[1]), TRACK, iterations=2, **OPTIONS)
+    loads = nodal_loads(ours, line_of(36))
+    moved = answer(viaduct36_in_mm(36), loads)[1, 18] * 1e-3
+    own = ours.displacement(18.0)["displacement_z"]
+    assert rms(moved - own) < 4e-3 * rms(own)

@@ -275,3 +275,17 @@ def test_bare_axles_on_a_deck_at_rest_feel_nothing():
     step = staggered.begin(rb.AxleTrain([0.0, 3.0], [1e5, 2e5]), rb.Track(), AXIS, speed=30.0)
     still = staggered.NodeMotion(step.time, *np.zeros((3, 25, len(step.time))))
     assert staggered.next_forces(step, still).changes == (0.0,)
+
+
+def test_displacements_of_our_own_deck_with_a_rail_give_our_own_next_forces():
+    rail = rb.Rail(bending_stiffness=1.28e7, foundation=1e8)
+    ours = rb.cross(TRAIN, rb.deck("viaduct36", rail=rail), TRACK, iterations=2, **OPTIONS)
+    line = line_of(36)
+    step = staggered.begin(TRAIN, TRACK, line, rail=rail, **OPTIONS)
+    assert np.array_equal(step.time, ours.time) and step.time[0] < 0.0
+    step = staggered.next_forces(step, motion_of(ours.at(0), line))
+    added, own = step.passes[-1][0], ours.passes[1][0]
+    assert rms(added[:, 1] - own[:, 1]) < 5e-3 * rms(own[:, 1])
+    met = staggered.equivalent_irregularity(step)
+    before = met["deck_z"][ours.settings.before - 1]
+    assert 0.0 != abs(before) < 0.1 * np.abs(met["deck_z"]).max()

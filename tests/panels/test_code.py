@@ -62,6 +62,14 @@ def test_a_case_of_ones_own_is_written_out_where_it_is_far_from_the_papers():
     assert scope["case"].content == far.content
 
 
+def test_the_code_of_a_deck_with_a_rail_makes_it_again():
+    for rail in ({"spread": 0.6}, {"bending_stiffness": 1.28e7, "foundation": 1e8}):
+        case, scope = rb.case("paper").replace({"deck.rail": rail}), {}
+        exec(f"import railbridge as rb\n{case_lines(case, ())}", scope)
+        assert scope["case"].content == case.content
+        assert scope["case"].deck.rail == rb.Rail(**rail)
+
+
 def test_the_code_opens_below_its_button_as_tall_as_it_is(all_panels):
     panel = all_panels["deck_response"]
     side = next(w for w in panel.widget.children[0].children if "rb-side" in w._dom_classes)

@@ -202,6 +202,18 @@ def test_bars_are_axle_forces_while_the_axle_is_on_the_deck():
     assert repr(shown).startswith("Animation: 2 axles over viaduct36")
 
 
+def test_with_a_rail_the_animation_still_begins_when_the_first_axle_enters():
+    rail = rb.Rail(bending_stiffness=1.28e7, foundation=1e8)
+    train = rb.AxleTrain([0.0, 5.0], [2e5, 2e5])
+    run = rb.cross(train, rb.deck("viaduct36", rail=rail), speed=20.0, time_step=4e-3)
+    assert run.time[0] < -0.5
+    d = data(animate_crossing(run, frames=200))
+    assert d["time"][0] == 0.0
+    for delay, (first, bar) in zip((0.0, 5.0), d["force"], strict=True):
+        assert np.isclose(d["time"][first], delay / 20.0, atol=0.03)
+        assert np.isclose(d["time"][first + len(bar) - 1], (delay + 36.0) / 20.0, atol=0.03)
+
+
 def test_the_still_picture_is_the_frame_of_the_deepest_sag(browser, tmp_path, crossing):
     """Where no script runs it is all there is; the player starts from it and moves nothing."""
     page, _ = opened(browser, tmp_path, crossing)

@@ -916,3 +916,15 @@ def test_the_change_is_named_after_what_the_tolerance_is_of():
         "change of the wheel forces (-)", "change of the deck's motion (-)", "change (-)",
     ]  # fmt: skip
     plt.close("all")
+
+
+def test_a_crossing_with_a_rail_is_drawn_at_the_place_that_is_asked_for():
+    rail = rb.Rail(bending_stiffness=1.28e7, foundation=1e8)
+    run = rb.cross(rb.AxleTrain([0.0], [2e5]), rb.deck("viaduct36", rail=rail), speed=20.0)
+    k = np.argmin(np.abs(20.0 * run.time - 9.0))
+    along = np.linspace(0.0, 36.0, 49)
+    moved = run.deck.shapes(along)[:, :, 1] @ run.state.q[:, k]
+    ax = crossing_at(run, 9.0, plt.figure().add_subplot(), exaggeration=100.0)
+    (line,) = [line for line in ax.lines if line.get_gid() == "deck"]
+    drawn = line.get_ydata() - line.get_ydata()[0]
+    assert drawn / np.abs(drawn).max() == pytest.approx(moved / np.abs(moved).max(), abs=1e-6)

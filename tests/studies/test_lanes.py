@@ -8,7 +8,7 @@ import pytest
 import railbridge as rb
 from railbridge.crossing import compute
 from railbridge.studies import lanes
-from railbridge.studies.engine import Job, asked_of, row_of_run
+from railbridge.studies.engine import Job, asked_of, respond, row_of_run
 from railbridge.studies.lanes import advance_of, eligible, run_lanes
 from railbridge.studies.outputs import outputs_at
 
@@ -169,3 +169,17 @@ def test_what_jumps_or_needs_a_whole_run_is_no_lane():
     assert not eligible(case.deck, job_of(case), jumps, False)
     assert eligible(case.deck, job_of(case), smooth, False)
     assert not eligible(case.deck, job_of(case), smooth, True)
+
+
+def test_a_deck_with_a_rail_is_computed_one_crossing_after_the_other():
+    bed = {"bending_stiffness": 1.28e7, "foundation": 1e8}
+    found = {}
+    for rail in (None, bed):
+        case = rb.case("paper").replace({**BASE, "deck.rail": rail, "run.tail": 0.2})
+        asked = asked_of(outputs_at(case.deck, NAMES, [18.0]))
+        job = job_of(case)
+        found[rail is None] = eligible(case.deck, job, asked.outputs, False)
+    assert found == {True: True, False: False}
+    (row,) = respond(case.deck, [job], asked, side_by_side=True)
+    expected = row_of_run(compute(case.train, case.deck, case.track, case.settings), asked)
+    assert np.array_equal(row.values, expected.values, equal_nan=True)

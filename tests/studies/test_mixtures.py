@@ -119,3 +119,9 @@ def test_one_that_is_marked_but_cannot_be_mixed_is_computed_by_itself():
     asked = asked_of(outputs_at(case.deck, ("displacement_z",), [18.0]))
     (row,) = respond(case.deck, [Job(case.train, case.track, case.settings, True)], asked)
     assert not row.message and np.isfinite(row.values).all()
+
+
+def test_crossings_on_a_deck_with_a_rail_are_mixed_too():
+    """Eq. 3 counts from t = 0, which is not the first sample there."""
+    bed = {"bending_stiffness": 1.28e7, "foundation": 1e8}
+    compare(rb.case("paper").replace({**BASE, "deck.rail": bed}), list(waves(3)))

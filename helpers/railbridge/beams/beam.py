@@ -10,6 +10,7 @@ import numpy as np
 from .. import errors
 from ..decks import Deck, checked_damping, cut_group, damping_ratios
 from ..errors import InputError, Remark, brief
+from ..rails import Rail
 from .influence import BeamRecovery
 from .mesh import DENSE, BeamModes, Mesh
 from .properties import BeamProperties, span_ends
@@ -53,6 +54,7 @@ class Beam(BeamProperties):  # noqa: D101
         tracks: dict[str, float] | None = None,
         width: float | None = None,
         track_height: float = 0.0,
+        rail: Rail | None = None,
     ) -> Deck:
         """Return the modal deck of the lowest modes that loads can excite.
 
@@ -64,7 +66,7 @@ class Beam(BeamProperties):  # noqa: D101
             How many; chosen if not given, see `selection.needed`.
         damping : tuple of float, or float
             (alpha, beta) of Rayleigh, 1/s and s; or one ratio for every mode.
-        tracks, width, track_height
+        tracks, width, track_height, rail
             See `Deck`.
 
         Raises
@@ -90,6 +92,7 @@ class Beam(BeamProperties):  # noqa: D101
             tracks=tracks,
             width=width,
             track_height=track_height,
+            rail=rail,
             mass_per_metre=self.mass,
             internal_damping=0.0 if np.isscalar(damping) else float(damping[1]),
             remarks=(*self.remarks, *self._left_out(modes, natural, recovery)),

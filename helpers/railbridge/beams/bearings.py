@@ -53,7 +53,7 @@ class Bearing:
     stiffness : mapping
         What it holds by springs, { x = 6e9, z = 2e9 }: N/m for x y z, N m/rad for roll pitch yaw.
         Elastomeric bearings, piers. Where they let an end of the deck move, wheels step onto it at
-        full weight: accelerations are then not to be trusted.
+        full weight unless the deck has a rail: accelerations are then not to be trusted.
     span : int, optional
         Where simple spans meet: the span it carries, from 1. Left out: one such bearing stands
         under each.

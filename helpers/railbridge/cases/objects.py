@@ -20,6 +20,7 @@ from ..decks import Deck, rayleigh
 from ..errors import InputError, Remark, ResultWarning, did_you_mean, plain, within
 from ..exchange import ModesTable
 from ..plausibility import damping_frequencies
+from ..rails import Rail
 from ..tracks import Harmonic, Irregularity, Level, Notch, Rails, Track
 from ..tracks import Table as MeasuredTrack
 from ..trains import AnyTrain, AxleTrain, Train
@@ -216,8 +217,14 @@ def _irregularity(path: str, t: Any) -> Irregularity | list:
 # ---- decks
 
 
-def deck(source: str | Path) -> Deck:
+def deck(source: str | Path, rail: Rail | None = None) -> Deck:
     """Load a deck by shipped name (``viaduct36``) or from a ``.toml`` file.
+
+    Parameters
+    ----------
+    source : str or Path
+    rail : Rail, optional
+        How rails spread loads, instead of the file's own.
 
     Raises
     ------
@@ -227,7 +234,8 @@ def deck(source: str | Path) -> Deck:
     path = shelf.data_file("decks", source, ".toml")
     content = exchange.beside(shelf.read_toml(path, tables.DECK_KEYS), path.parent)
     with within(source=path.name):
-        return _deck_from_table(path.stem, content)
+        made = _deck_from_table(path.stem, content)
+    return made if rail is None else replace(made, rail=rail)
 
 
 def box(source: str | Path) -> Box:
@@ -329,6 +337,15 @@ def _cached_deck(name: str, content: str, *_stamps: int) -> Deck:
 
 def _deck_from_table(name: str, content: Mapping[str, Any]) -> Deck:
     t = checked(tables.DECK_FILE, content)
+    made = _without_rail(name, t)
+    if not t.has("rail"):
+        return made
+    with within("rail"):
+        rail = Rail(**t.rail.given)
+    return replace(made, rail=rail)
+
+
+def _without_rail(name: str, t: Table) -> Deck:
     if isinstance(t, tables.MODAL_DECK):
         return _modal_deck(name, t)
     if isinstance(t, tables.BOX_DECK):

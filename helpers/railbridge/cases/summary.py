@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from .. import errors, notices
-from ..decks import History, Line
+from ..decks import Deck, History, Line
 from ..errors import Remark
 from ..results import ENVELOPE, Crossing
 from ..settings import STATIONS
@@ -86,7 +86,7 @@ def summarize(
             "speed": s.speed, "time_step": s.time_step, "samples": len(run.time),
             "duration": run.time[-1],
             "lead_in": s.lead_in, "track_offset": s.track_offset, "loads": s.loads,
-            "interaction": s.interaction,
+            "interaction": s.interaction, "rail": _rail(deck),
         },
         **_wheels(run),
         "points": [{"x": x, **_at_point(run, x)} for x in points],
@@ -96,6 +96,12 @@ def summarize(
         "self_weight": _self_weight(run, points),
     }  # fmt: skip
     return _plain(result)
+
+
+def _rail(deck: Deck) -> dict[str, float] | None:
+    """Return how a deck's rail spreads loads, as a case says it; None without one."""
+    given = {} if deck.rail is None else vars(deck.rail)
+    return {name: value for name, value in given.items() if value is not None} or None
 
 
 def to_json(summary: dict[str, Any]) -> str:

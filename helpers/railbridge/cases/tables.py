@@ -25,6 +25,7 @@ from ..decks import RATIO
 from ..errors import InputError, Range, choice, keys
 from ..exchange import ModesTable
 from ..guideways import Guideway
+from ..rails import Rail
 from ..settings import Options
 from ..tracks import Harmonic, Notch
 from ..tracks import Table as MeasuredTrack
@@ -354,12 +355,24 @@ PADS = table(
 )
 SECTION = table("Section", "Section and material.", **fields_of(Section))
 
+RAIL = table(
+    "DeckRail",
+    "Rails that spread a wheel's load, and carry on over the deck's ends.",
+    schema=_either(("spread",), ("bending_stiffness", "foundation")),
+    **fields_of(Rail),
+)
+_RAIL = key(
+    RAIL,
+    "How rails spread a wheel's load and carry on over the deck's ends: { spread = 0.6 }, or "
+    "{ bending_stiffness, foundation }; not at all if left out.",
+)
 _CARRYING = {
     "tracks": key(named_numbers(), "Named tracks: m left of the deck axis, { left = 2.4 }."),
     "width": key(number(above=0.0, unit="m"), "m, on which the wheels must stand."),
     "track_height": key(
         number(least=-50.0, most=50.0, unit="m"), meanings(Guideway)["track_height"], 0.0
     ),
+    "rail": _RAIL,
 }
 _SPANS = {
     "length": key(number(above=0.0, unit="m"), "One span, m. Or spans."),
@@ -486,6 +499,7 @@ BOX_DECK = table(
     modes=_MODES,
     bearing=key(list_of(PADS, "bearing"), "Pads; default: y and z at every line, x at the first."),
     tracks=_CARRYING["tracks"],
+    rail=_RAIL,
     **_for_people(),
 )
 _AXES = ["x", "-x", "y", "-y", "z", "-z"]
@@ -527,14 +541,15 @@ DECK_KEYS = frozenset().union(*(kind.model_fields for kind in _MAKERS.values()))
 """Keys that a deck file may have, whatever makes its deck."""
 SHIPPED = table(
     "DeckFile",
-    "A deck file; modes and damping may replace its own.",
+    "A deck file; modes, damping and rail may replace its own.",
     unknown_key=(
         "cannot stand beside deck.file",
-        "Beside a file only modes and damping may stand; they replace its own",
+        "Beside a file only modes, damping and rail may stand; they replace its own",
     ),
     file=key(NAME, "A shipped deck (viaduct36), or a .toml file beside this one.", required=True),
     modes=key(number(least=1, whole=True), "How many modes, instead of the file's own number."),
     damping=key(DAMPING, "Instead of the file's own. " + _DAMPING),
+    rail=key(RAIL, "Instead of the file's own: { spread }, or { bending_stiffness, foundation }."),
 )
 DECK = switched(
     lambda value: by_key(value, ("file",), otherwise=_kind_of_deck(value)),
@@ -574,6 +589,7 @@ TABLES = {
     "deck": BEAM, "deck.file": SHIPPED, "deck.section": SECTION, "deck.bearing": BEARING,
     "deck.box": BOX, "box deck": BOX_DECK, "box bearing": PADS, "deck.mesh": MESH,
     "deck.modes": MODES, "modal deck": MODAL_DECK, "deck.damping": RAYLEIGH, "modal damping": MODAL,
+    "deck.rail": RAIL,
     "train": OF_ONE_KIND, "mixed train": MIXED, "train.cars": SEVERAL, "bare train": BARE,
     "named train": NAMED, "train file": FROM_FILE, "train.notch": NOTCH, "track": TRACK,
     "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "none": LEVEL, "run": RUN,

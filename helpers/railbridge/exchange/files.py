@@ -336,6 +336,9 @@ def _deck_file(deck: Deck) -> list[str]:
     lines += ["\n[modes]\n", 'nodes = "nodes.csv"\n', 'modes = "modes.csv"\n', "unusual = true\n"]
     if deck.supports:
         lines += [f"supports = [{', '.join(map(_text, deck.supports))}]\n"]
+    if deck.rail is not None:
+        rail = [f"{k} = {_text(v)}\n" for k, v in vars(deck.rail).items() if v is not None]
+        lines += ["\n[rail]\n", *rail]
     if deck.tracks:
         tracks = [f"{_quoted(k)} = {_text(y)}\n" for k, y in deck.tracks.items()]
         lines += ["\n[tracks]\n", *tracks]

@@ -5,7 +5,7 @@ A load at x between two nodes acts through the shapes that a beam element has th
 the element as the load itself; without (solid and shell models) forces follow the lever rule. Both
 are statically equivalent: same force, same moment, at every instant. The moment about x of loads
 off the axis goes with the lever rule as a couple, or as a pair of forces where a left and a right
-line of nodes carry the rail.
+line of nodes carry the rail. A deck's rail spreads a load first.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ import numpy as np
 from .. import errors
 from ..coupling import Coupling
 from ..errors import InputError, brief
+from ..guideways import PiecewiseCubic
 from ..settings import refuse_bytes
 from ..units import factor_of, per_metre
 from .nodes import RailLine
@@ -148,11 +149,53 @@ def nodal_loads(run: Run, line: RailLine | None = None, couples: bool | None = N
     refuse_bytes("line", count, needed, f"loads of so many nodes at {samples} instants", remedy)
     axis = np.zeros((len(line.x), 5, len(coupling.time)))
     loads = coupling.station_loads(run.passes[run.iteration])
+    reach, shares = coupling.deck.reach, None
+    if coupling.deck.rail is not None:
+        shares = coupling.deck.under_rail(_shares(line.x, couples))
     for delay, start, load in zip(coupling.load_delays, coupling.loads.starts, loads, strict=True):
         samples = np.arange(start, start + load.shape[1])
-        x = np.clip(coupling.settings.speed * coupling.time[samples] - delay, 0.0, line.length)
-        _distribute(axis, line.x, x, samples, load, couples)
+        x = coupling.settings.speed * coupling.time[samples] - delay
+        x = np.clip(x, -reach, line.length + reach)
+        if shares is None:
+            _distribute(axis, line.x, x, samples, load, couples)
+        else:
+            _distribute_by_rail(axis, shares, x, samples, load)
     return NodalLoads(line, coupling.time, _to_nodes(line, axis))
+
+
+def _shares(nodes: np.ndarray, couples: bool) -> PiecewiseCubic:
+    """Return what nodes take of a load between them: functions of its place, three of each node.
+
+    Of a force, of a couple about the axis, and, with `couples`, of a force by the node's couple.
+    """
+    count, h = len(nodes), np.diff(nodes)
+    functions = np.zeros((count - 1, 4, count, 3))
+    e = np.arange(count - 1)
+    linear = np.array([[1.0, -1.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]])
+    moved = np.array([[1.0, 0.0, -3.0, 2.0], [0.0, 0.0, 3.0, -2.0]])
+    turned = np.array([[0.0, 1.0, -2.0, 1.0], [0.0, 0.0, -1.0, 1.0]])
+    for i in (0, 1):
+        functions[e, :, e + i, 0] = moved[i] if couples else linear[i]
+        functions[e, :, e + i, 1] = linear[i]
+        if couples:
+            functions[e, :, e + i, 2] = h[:, None] * turned[i]
+    return PiecewiseCubic(nodes, functions)
+
+
+def _distribute_by_rail(
+    axis: np.ndarray, shares: PiecewiseCubic, x: np.ndarray, samples: np.ndarray, load: np.ndarray
+) -> None:
+    """Add one moving load that a rail spreads, as `_distribute` does without."""
+    load = np.concatenate([load, np.zeros((5 - len(load), load.shape[1]))])
+    force_y, force_z, moment_x, moment_y, moment_z = load
+    force, twist, turn = shares(x).T
+    by_force, _, by_turn = shares(x, 1).T
+    # A couple does work on the slope: M_y on -w', M_z on v'.
+    axis[:, 0, samples] += force * force_y + by_force * moment_z
+    axis[:, 1, samples] += force * force_z - by_force * moment_y
+    axis[:, 2, samples] += twist * moment_x
+    axis[:, 3, samples] += -turn * force_z + by_turn * moment_y
+    axis[:, 4, samples] += turn * force_y + by_turn * moment_z
 
 
 def _distribute(

@@ -31,6 +31,7 @@ from ..coupling import Coupling, DeckState, ForcesAdded, prepare
 from ..decks import History
 from ..errors import InputError, brief, within
 from ..guideways import Guideway, PiecewiseCubic
+from ..rails import Rail
 from ..settings import check, refuse_bytes
 from ..tracks import FadeIn, Track
 from ..trains import AnyTrain
@@ -98,7 +99,7 @@ class Staggered:
         return errors.frozen(self.coupling.wheel_forces(self.passes[-1], self.felt))
 
 
-def nodal_guideway(line: RailLine, track_height: float = 0.0) -> Guideway:
+def nodal_guideway(line: RailLine, track_height: float = 0.0, rail: Rail | None = None) -> Guideway:
     """Return what moves as the nodes of a line do: its coordinates are their y, z and twist.
 
     Its shapes interpolate between the nodes by cubic splines.
@@ -111,7 +112,8 @@ def nodal_guideway(line: RailLine, track_height: float = 0.0) -> Guideway:
     for c in range(3):
         coefficients[:, :, c * n : (c + 1) * n, c] = cardinal
     shapes = PiecewiseCubic(line.x, coefficients)
-    return Guideway(name="nodes", length=line.length, shapes=shapes, track_height=track_height)
+    own = {"shapes": shapes, "track_height": track_height, "rail": rail}
+    return Guideway(name="nodes", length=line.length, **own)
 
 
 def begin(
@@ -121,6 +123,7 @@ def begin(
     *,
     speed: float,
     track_height: float = 0.0,
+    rail: Rail | None = None,
     **options: Any,
 ) -> Staggered:
     """Return pass 0: the wheel forces on a rigid deck.
@@ -134,6 +137,9 @@ def begin(
         m/s.
     track_height : float
         Rails above the deck axis, m; see `Deck`.
+    rail : Rail, optional
+        How rails spread loads and carry on over the deck's ends; see `Deck`. Time then begins
+        before the first axle enters.
     options
         ``loads``, ``track_offset``, ``time_step``, ``lead_in``, ``tail``, ``excitation``,
         ``feedback``; see `cross`.
@@ -145,7 +151,7 @@ def begin(
     """
     errors.keys("", options, _OPTIONS)
     track_height = errors.number("track_height", track_height, unit="m")
-    deck = nodal_guideway(line, track_height)
+    deck = nodal_guideway(line, track_height, rail)
     coupling = prepare(train, deck, track, check(train, deck, track, speed=speed, **options))
     return Staggered(train, track, line, coupling, (coupling.nothing_added(),))
 
@@ -157,7 +163,7 @@ class NodeMotion:
     Attributes
     ----------
     time : ndarray, shape (t,)
-        s, ascending; zero when the first axle enters.
+        s, ascending; zero when the first axle enters, negative before.
     y, z, roll : ndarray, shape (nodes, t)
         m, m, rad; nodes as in ``line.nodes``. `roll` is not used where a left and a right line
         carry the rail.

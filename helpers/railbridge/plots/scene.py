@@ -130,7 +130,7 @@ def crossing_at(
     ax = axes_or_new(ax, 2.6)
     deck, q = run.deck, run.state.q
     position = errors.number("position", position, unit="m")
-    sample = round(position / run.settings.speed / run.settings.time_step)
+    sample = round(position / run.settings.speed / run.settings.time_step) + run.settings.before
     sample = int(np.clip(sample, 0, len(run.time) - 1))
     forces = axle_forces(run) if forces is None else forces
     factor, full = comfortable_exaggeration(run), max(force, arrow_force(forces))

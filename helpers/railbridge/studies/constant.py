@@ -18,12 +18,16 @@ of motion: each output needs one pass of `scipy.signal.lfilter` a mode.
 Between samples p is taken as linear. Where an axle enters or leaves, at the fraction c of a step, p
 bends (by g) or jumps (by J): the chord there has g c (1 - c) ds^2 / 2 + J (c - 1/2) ds too much.
 Half of it is taken off the samples on both sides, so that the impulse is right.
+
+Where the deck has a rail, w, theta and influence lines are those that a load on the rail meets, and
+each sleeper enters and leaves by itself; on a bed nothing bends or jumps.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from scipy.signal import lfilter
@@ -90,7 +94,8 @@ def constant_loads(
         own = np.flatnonzero(steps == step)
         passage = _passage(deck, train, outputs, track_offset, step, tail * speeds[own].max())
         for i in own:
-            samples = 2 + int(np.ceil((deck.length + train.length + tail * speeds[i]) / step))
+            along = deck.length + 2 * deck.reach + train.length + tail * speeds[i]
+            samples = 2 + int(np.ceil(along / step))
             found[:4, i] = _extremes(passage, deck, outputs, speeds[i], samples)
             found[4:, i] = passage.static_low, passage.static_high
     return Peaks(*found)
@@ -103,7 +108,9 @@ class _Passage:
     Attributes
     ----------
     step : float
-        m; the first sample has the front axle one step before the deck.
+        m.
+    start : float
+        Place of the front axle at the first sample, m: a step before it loads the deck.
     modal : ndarray, shape (modes, n)
         Modal forces.
     static : ndarray, shape (outputs, n)
@@ -115,6 +122,7 @@ class _Passage:
     """
 
     step: float
+    start: float
     modal: np.ndarray
     static: np.ndarray
     fronts: list[tuple[np.ndarray, np.ndarray]]
@@ -138,8 +146,9 @@ def _passage(
             for axle in axles
         ]
     )
-    samples = 3 + int(np.ceil((deck.length + train.length + behind) / step))
-    modal = _summed(deck.shapes, delays, loads, deck.length, step, samples)
+    samples = 3 + int(np.ceil((deck.length + 2 * deck.reach + train.length + behind) / step))
+    start = -step - deck.reach
+    modal = _summed(deck.under_rail(deck.shapes), delays, loads, deck, step, samples)
     _mend_ends(modal, deck, delays, loads, step)
     static = np.zeros((len(outputs), samples))
     fronts = []
@@ -149,25 +158,29 @@ def _passage(
         if output.line is None:
             fronts.append(empty)
             continue
-        influence = output.line.influence
-        static[i] = _summed(influence, delays, loads, deck.length, step, samples)[0]
-        fronts.append(_beside(influence, output.x, delays, loads) if output.is_force else empty)
-        (low, high), _ = _refined(static[i], step, fronts[-1][0] + step)
+        influence = deck.under_rail(output.line.influence)
+        static[i] = _summed(influence, delays, loads, deck, step, samples)[0]
+        breaks = [output.x + offset for offset, _ in deck.parts] if output.is_force else []
+        beside = [_beside(influence, x, delays, loads, deck.length) for x in breaks]
+        own = [np.concatenate(each) for each in zip(*beside, strict=True)]
+        fronts.append(tuple(own) if own else empty)
+        (low, high), _ = _refined(static[i], step, fronts[-1][0] - start)
         limits[:, i] = min(low, *fronts[-1][1], 0.0), max(high, *fronts[-1][1], 0.0)
-    return _Passage(step, modal, static, fronts, *limits)
+    return _Passage(step, start, modal, static, fronts, *limits)
 
 
 def _summed(
-    shape: Callable, delays: np.ndarray, loads: np.ndarray, length: float, step: float, samples: int
+    shape: Callable, delays: np.ndarray, loads: np.ndarray, deck: Deck, step: float, samples: int
 ) -> np.ndarray:
-    """Return what functions along the deck give under all axles, shape (functions, samples)."""
+    """Return what functions along the rail give under all axles, shape (functions, samples)."""
+    reach, length = deck.reach, deck.length + 2 * deck.reach
     starts = np.ceil(delays / step - 1e-6).astype(int)
     keys = np.round(starts - delays / step, 6)
     total = None
     for key in np.unique(keys):
         # Axles that meet the samples alike share the values.
         count = int(np.floor(length / step - key + 1e-6)) + 1
-        x = np.clip(step * (key + np.arange(count)), 0.0, length)
+        x = np.clip(step * (key + np.arange(count)), 0.0, length) - reach
         values = shape(x)[:, :, 1:]
         if total is None:
             total = np.zeros((values.shape[1], samples))
@@ -185,25 +198,26 @@ def _mend_ends(
     """Take off what the chords beside the ends of the deck have too much; see above."""
     ends = np.array([0.0, deck.length])
     sign = np.array([1.0, -1.0])  # on, off
+    start = -step - deck.reach
     jump, bend = (
         np.einsum("emc,kc->ekm", sign[:, None, None] * deck.shapes(ends, d)[:, :, 1:], loads)
         for d in (0, 1)
     )
-    for e in (0, 1):
-        place = (delays + ends[e]) / step
+    for e, (offset, part) in product((0, 1), deck.parts):
+        place = (delays + (ends[e] + offset) - start) / step
         # The sample before: an axle exactly on one is on the deck there, at both ends.
         before = np.ceil(place - 1e-6) - 1 if e == 0 else np.floor(place + 1e-6)
         share = (place - before)[:, None]
         off = bend[e] * share * (1 - share) * step / 4 + jump[e] * (share - 0.5) / 2
-        for sample in (before.astype(int) + 1, before.astype(int) + 2):
-            np.subtract.at(modal.T, sample, off)
+        for sample in (before.astype(int), before.astype(int) + 1):
+            np.subtract.at(modal.T, sample, part * off)
 
 
 def _beside(
-    influence: Callable, x: float, delays: np.ndarray, loads: np.ndarray
+    influence: Callable, x: float, delays: np.ndarray, loads: np.ndarray, length: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return where the front is just before and behind each axle's passing x, and the statics."""
-    just = _JUST * influence.edges[-1]
+    just = _JUST * length
     fronts = (delays[:, None] + x + np.array([-just, just])).ravel()
     places = fronts[:, None] - delays
     values = influence(places.ravel())[:, 0, 1:].reshape(*places.shape, 2)
@@ -214,7 +228,7 @@ def _extremes(
     passage: _Passage, deck: Deck, outputs: Sequence[Output], speed: float, samples: int
 ) -> np.ndarray:
     """Return smallest, largest and their times of every output at one speed."""
-    step, force = passage.step, passage.modal[:, :samples]
+    step, start, force = passage.step, passage.start, passage.modal[:, :samples]
     h = step / speed
     wanted = {
         "q": any(not o.is_acceleration for o in outputs),
@@ -235,18 +249,18 @@ def _extremes(
                 moving = output.modal @ (q + deck.internal_damping * v if wanted["v"] else q)
                 smooth = moving + rest
                 values = smooth + passage.static[i, :samples]
-                beside = beside + np.interp(fronts / step + 1, np.arange(samples), smooth)
+                beside = beside + np.interp((fronts - start) / step, np.arange(samples), smooth)
             else:
                 rest += passage.static[i, :samples]
                 values = output.modal @ q + lagged(rest, deck.internal_damping, h)
-        (low, high), (low_at, high_at) = _refined(values, step, fronts + step)
+        (low, high), (low_at, high_at) = _refined(values, step, fronts - start)
         if len(fronts):
             least, most = int(np.argmin(beside)), int(np.argmax(beside))
             if beside[least] < low:
-                low, low_at = beside[least], fronts[least] + step
+                low, low_at = beside[least], fronts[least] - start
             if beside[most] > high:
-                high, high_at = beside[most], fronts[most] + step
-        result[:, i] = low, high, (low_at - step) / speed, (high_at - step) / speed
+                high, high_at = beside[most], fronts[most] - start
+        result[:, i] = low, high, (low_at + start) / speed, (high_at + start) / speed
     return result
 
 

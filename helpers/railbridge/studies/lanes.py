@@ -82,7 +82,7 @@ def waves_of(track: Track) -> dict[tuple[str, str], Harmonic | Level] | None:
 
 
 def eligible(deck: Deck, job: Job, outputs: Sequence[Output], more: bool) -> bool:
-    """Whether a crossing can be a lane: waves, wheel loads, and a given number of passes.
+    """Whether a crossing can be a lane: waves, wheel loads, a given number of passes, no rail.
 
     Parameters
     ----------
@@ -95,6 +95,8 @@ def eligible(deck: Deck, job: Job, outputs: Sequence[Output], more: bool) -> boo
     """
     s = job.settings
     if not isinstance(job.train, Train) or job.train.notches or more:
+        return False
+    if deck.rail is not None:  # lanes begin when the first axle enters
         return False
     if s.loads != "wheels" or s.excitation != "wheels" or s.feedback != "all":
         return False

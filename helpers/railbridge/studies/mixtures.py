@@ -168,11 +168,10 @@ def _deviations(runs: Sequence[Crossing], shares: np.ndarray) -> np.ndarray:
     if not runs[0].iterations:
         return np.full(len(shares), np.nan)
     step = runs[0].settings.time_step
-    first = runs[0].coupling.cars[0]
-    reach = first.car.axles[-1].delay + runs[0].deck.length
-    stop = int(np.floor(reach / runs[0].settings.passage.advance + 1e-4)) + 1
+    first = runs[0].coupling.cars[0].car
+    own = runs[0].settings.first_on_deck(first, runs[0].deck)
     both = [
-        np.array([run.at(i).car_forces(1, static=False)["force_z"][:stop] for run in runs])
+        np.array([run.at(i).car_forces(1, static=False)["force_z"][own] for run in runs])
         for i in (0, runs[0].iterations)
     ]
     result = []

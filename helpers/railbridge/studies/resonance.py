@@ -65,7 +65,8 @@ def residual_acceleration(deck: Deck, train: AnyTrain, speeds: np.ndarray) -> np
     """Return the acceleration at mid-span by the residual influence line, m/s2.
 
     None where it does not apply: several spans, or a deck whose mass is not known. NaN beside the
-    speed 2 L f, where the formula divides by nothing.
+    speed 2 L f, where the formula divides by nothing. Of loads at their own places: what a rail
+    spreads is less.
 
     Parameters
     ----------

@@ -68,7 +68,7 @@ def animate_crossing(
         exaggeration = errors.number("exaggeration", exaggeration, above=0.0, remedy=remedy)
     stop = min(run.time[-1], (train.length + deck.length) / speed + 1.0)
     last = np.searchsorted(run.time, stop, "right") - 1
-    samples = np.round(np.linspace(0.0, last, frames)).astype(int)
+    samples = np.round(np.linspace(run.settings.before, last, frames)).astype(int)
     time, along = run.time[samples], np.linspace(0.0, deck.length, 25)
     shape = np.array([run.displacement(place)["displacement_z"][samples] for place in along]).T
     scale = (WIDTH - 40) / (deck.length + 2 * _margin(deck.length))  # px per m along the bridge
