@@ -23,6 +23,8 @@ FAR = 0.1
 end."""
 GROWING = 0.01
 """Smallest change that, larger than one before it, is called a divergence."""
+BLOW = 0.02
+"""Share of the static wheel force from which on a blow at the deck's ends is told of."""
 _STILL = 1e-3
 """Motion of a deck's end, share of its largest, below which it is at rest."""
 
@@ -41,6 +43,7 @@ def remarks(run: Crossing) -> tuple[Remark, ...]:
     found += _parted(run) if run.settings.contact == "hertz" else _pulling(run)
     found += _lifting(run)
     found += _moving_ends(run)
+    found += _broken_track(run)
     return tuple(found)
 
 
@@ -268,6 +271,36 @@ def _moving_ends(run: Crossing) -> list[Remark]:
     text = (
         "An end of the deck moves (elastic bearings or an overhang): wheels step on or off there "
         f"{how}, so accelerations are not to be trusted. Try a rail on a bed, "
+        "deck.rail = { bending_stiffness = 1.28e7, foundation = 1e8 }."
+    )
+    return [ResultWarning("", text)]
+
+
+def _broken_track(run: Crossing) -> list[Remark]:
+    """Say how hard wheels with mass are struck where the track breaks at the ends of the deck.
+
+    There a wheel is given the speed V theta at once, theta the rotation of the end, and a mass m on
+    a spring k answers with the force ``V theta sqrt(k m)``.
+    """
+    deck, worst = run.deck, (0.0, 0.0)
+    if not deck.parts or run.settings.interaction == "rigid":
+        return []
+    ends = deck.shapes(np.array([0.0, deck.length]), 1)[:, :, 1] @ run.state.q
+    angle = float(np.abs(ends).max())
+    for vehicle, _ in run.train.kinds():
+        for body in vehicle.wheelsets:
+            for contact, k in zip(vehicle.contacts, vehicle.contact_stiffness[:, 1], strict=True):
+                if contact.body != body.name:
+                    continue
+                own = body.mass / sum(c.body == body.name for c in vehicle.contacts)
+                blow = run.settings.speed * angle * np.sqrt(k * own)
+                worst = max(worst, (blow / contact.static_load, blow))
+    if worst[0] < BLOW:
+        return []
+    text = (
+        f"Wheels with mass meet a break of the track where the deck's ends turn, {1e3 * angle:.2g} "
+        f"mrad at most: it strikes each with up to about {worst[1] / 1e3:.2g} kN, which a real rail "
+        "softens. Try a rail on a bed, "
         "deck.rail = { bending_stiffness = 1.28e7, foundation = 1e8 }."
     )
     return [ResultWarning("", text)]

@@ -494,13 +494,15 @@ def _press(
 
 
 def pressing(
-    linear: np.ndarray, answer: np.ndarray, load: np.ndarray, depth: np.ndarray
-) -> np.ndarray:
-    """Return p of Hertzian contacts, N, shape (wheels,).
+    linear: np.ndarray, answer: np.ndarray, contacts: np.ndarray, memory: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return p of Hertzian contacts, N, and what to remember of them.
 
-    With H the answer, the contacts carry ``P = -(linear + H p)`` and are pressed by ``d = d0 - (P0
-    - P + p) / k``. Without p that is ``d + A P = d*``, where A is how much a contact opens in the
-    step under its own force and d* how deep it would be without one. P(d) is convex and grows, so
+    With H the answer, the contacts carry ``P = -(linear + H p)``. Their springs and dampers are
+    stretched by e with ``k e + c e' = g = P0 - P + p``, which the exact step for a g that is linear
+    between samples turns into ``e = alpha + beta g``. So the depth ``d = d0 - e`` follows from P
+    alone, ``d + A P = d*``, where A is how much a contact opens in the step under its own force and
+    d* how deep it would be without one; and d' follows from d. P(d) grows and bends upwards, so
     that Newton's method falls to the solution from d*, without turning back.
 
     Parameters
@@ -509,27 +511,47 @@ def pressing(
         Forces on the deck with p = 0, N.
     answer : ndarray, shape (wheels, wheels)
         What p adds to them.
-    load, depth : ndarray, shape (wheels,)
-        P0 (N) and d0 (m).
+    contacts : ndarray, shape (6, wheels)
+        See `Plan.pressed`.
+    memory : ndarray, shape (2, wheels)
+        e (m) and g (N) of the sample before.
+
+    Returns
+    -------
+    p : ndarray, shape (wheels,)
+    memory : ndarray, shape (2, wheels)
+        e and g of this sample.
 
     Raises
     ------
     ArithmeticError
         Where it does not settle.
     """
+    load, depth, damping, decay, before, beta = contacts
     k, count = 1.5 * load / depth, len(load)
+    alpha = decay * memory[0] + before * memory[1]
     solved = np.linalg.solve(answer, np.column_stack([np.eye(count), linear]))
     inverse, of_linear = solved[:, :count], solved[:, count]
-    opening = -(np.eye(count) + inverse) / k[:, None]
-    free = depth - (load - of_linear) / k
+    opening = -beta[:, None] * (np.eye(count) + inverse)
+    free = depth - alpha - beta * (load - of_linear)
+    # d' = rate + stiffer d / c: nothing where there is no damper.
+    with_damper = damping > 0.0
+    share_of_rate = np.where(with_damper, (1.0 / beta - k) / load, 0.0)
+    still = depth - np.where(with_damper, alpha / (1.0 - k * beta + (~with_damper)), 0.0)
     d = free.copy()
     for _ in range(MOST):
         share = np.maximum(d / depth, 0.0)
-        force, tangent = load * share**1.5, k * np.sqrt(share)
+        more = 1.0 + share_of_rate * (d - still)
+        force = np.maximum(load * share**1.5 * more, 0.0)
+        tangent = k * np.sqrt(share) * more + load * share**1.5 * share_of_rate
+        tangent = np.where(force > 0.0, tangent, 0.0)
         wrong = d + opening @ force - free
         step = np.linalg.solve(np.eye(count) + opening * tangent, wrong)
         d = d - step
         if np.max(np.abs(step) / depth) <= TOLERANCE:
-            force = load * np.maximum(d / depth, 0.0) ** 1.5
-            return -(inverse @ force + of_linear)
+            share = np.maximum(d / depth, 0.0)
+            force = load * share**1.5 * (1.0 + share_of_rate * (d - still))
+            force = np.maximum(force, 0.0)
+            p = -(inverse @ force + of_linear)
+            return p, np.stack([depth - d, load - force + p])
     raise ArithmeticError("a contact force does not settle within a step")
