@@ -7,6 +7,7 @@ import railbridge as rb
 from railbridge.coupling import prepare
 from railbridge.settings import check
 from railbridge.stepping import march, plan
+from railbridge.wheelsets import Wheelset, on_wheelsets
 
 compiled = pytest.importorskip("railbridge.compiled", reason="needs the extra `fast`")
 
@@ -70,3 +71,27 @@ def test_hertzian_contacts_that_part():
         tail=0.1, lead_in=60.0,
     )  # fmt: skip
     assert run.parted.any() and run.wheel_forces[:, 1].max() < 1e-6 * static
+
+
+def test_hertzian_contacts_of_cars_with_several_numbers_of_wheels():
+    # The wheels that the smaller car does not have must not stand on springs of no stiffness.
+    trolley = rb.Body("trolley", 20e3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), ("z",))
+    above = rb.Spring("trolley", "wheelset", (0.0, 0.0, 0.5), (0.0, 1e6), (0.0, 2e4))
+    below = Wheelset("wheelset", 0.0, 1500.0, gauge=0.0, contact_stiffness=(0.0, 6e8))
+    small = on_wheelsets("trolley", [trolley], [above], [below])
+    large = rb.with_wheelsets(CAR, mass=1800.0, roll_inertia=900.0)
+    for cars in ([small, large], [large, small, large]):
+        train = rb.Train(cars, car_spacing=24.0)
+        pair = both(train, SHORT, contact="hertz", speed=60.0, time_step=1e-3)
+        assert all(more.shape[0] == len(car.contacts) for more, car in zip(pair[1].more, cars, strict=True))
+        assert apart(pair) < 1e-11
+
+
+def test_a_contact_force_that_is_no_number_is_refused():
+    train = rb.Train(rb.with_wheelsets(LIGHT, mass=1500.0))
+    settings = check(train, DECK, SHORT, speed=50.0, contact="hertz", lead_in=0.0)
+    steps = plan(prepare(train, DECK, SHORT, settings), SHORT)
+    steps.rail[0][1, 5:] = np.nan
+    for loop in (march, compiled.march):
+        with pytest.raises(ArithmeticError, match="does not settle"):
+            loop(steps)

@@ -43,6 +43,8 @@ class _Kinds:
         D - 1 of the vertical directions.
     given : ndarray, shape (2, kinds, wheels, 3 axles)
         (D - 1) K and (D - 1) C of the vertical directions.
+    counts : ndarray of int, shape (kinds,)
+        How many wheels each has.
     """
 
     __repr__ = brief
@@ -56,6 +58,7 @@ class _Kinds:
     wheels: np.ndarray
     direct: np.ndarray
     given: np.ndarray
+    counts: np.ndarray
 
 
 def march(plan: Plan) -> Marched:
@@ -102,7 +105,7 @@ def march(plan: Plan) -> Marched:
         load_tables, load_at[plan.loads[:, 2]], plan.loads, plan.of_cars, kind, plan.windows,
         loads, rail, pressed, states,
         kinds.decay, kinds.drive, kinds.shown, kinds.loaded, kinds.felt, kinds.pressing,
-        kinds.wheels, kinds.direct, kinds.given, hertzian, found, more,
+        kinds.wheels, kinds.direct, kinds.given, kinds.counts, hertzian, found, more,
     )  # fmt: skip
     if not settled:
         raise ArithmeticError("a contact force does not settle within a step")
@@ -149,6 +152,7 @@ def _kinds(cars: list[CarSteps]) -> _Kinds:
         given=pair(
             [c.direct[1::2] @ c.stiffness for c in cars], [c.direct[1::2] @ c.damping for c in cars]
         ),
+        counts=np.array([len(c.direct) // 2 for c in cars]),
     )
 
 
@@ -212,11 +216,11 @@ def _press(count, linear, answer, load, depth, p):
                 matrix[i, j] = opening * 1.5 * load[j] / depth[j] * root
             matrix[i, i] += 1.0
         _solve(matrix, step)
-        most = 0.0
+        still = True
         for i in range(count):
             d[i, 0] -= step[i, 0]
-            most = max(most, abs(step[i, 0]) / depth[i])
-        if most <= TOLERANCE:
+            still &= abs(step[i, 0]) / depth[i] <= TOLERANCE
+        if still:
             for i in range(count):
                 share = max(d[i, 0] / depth[i], 0.0)
                 force[i, 0] = load[i] * share * np.sqrt(share)
@@ -233,13 +237,13 @@ def _march(
     first, samples, onward, reach,
     tables, at, axles, load_tables, load_at, loads_of,
     of_cars, kind, windows, known, rail, pressed, states,
-    decay, drive, shown, loaded, felt, pressing, wheels, direct, given, hertzian, found, more,
+    decay, drive, shown, loaded, felt, pressing, wheels, direct, given, counts, hertzian, found, more,
 ):  # fmt: skip
     """Run the loop of `stepping.march`; return whether all contacts settled."""
     modes, cars = reach.shape[1], len(kind)
     rows, size, d = shown.shape[2], decay.shape[2], drive.shape[3]
-    places, count = loaded.shape[3], direct.shape[1]
-    most = cars * count if hertzian else 0
+    places = loaded.shape[3]
+    most = cars * counts.max() if hertzian else 0
     q, velocity = np.zeros(modes), np.zeros(modes)
     force, ahead, rate = np.zeros(modes), np.zeros(modes), np.zeros(modes)
     # Of every car on the deck, so that they are there when the deck's forces are known.
@@ -274,6 +278,7 @@ def _march(
             if not windows[c, 0] <= k < windows[c, 1]:
                 continue
             n, now = kind[c], k - windows[c, 0]
+            count = counts[n]
             # What it meets of the deck.
             here = _rows_of(
                 tables, at, axles, of_cars[c, 0], of_cars[c, 1], k, shapes[c], slopes[c]
@@ -376,6 +381,7 @@ def _march(
             own = 0
             for c in range(low, cars):
                 if here_at[c] == k:
+                    count = counts[kind[c]]
                     for w in range(count):
                         for i in range(count):
                             answer[own + w, own + i] += direct[kind[c], w, 2 * i + 1]
@@ -385,6 +391,7 @@ def _march(
             own = 0
             for c in range(low, cars):
                 if here_at[c] == k:
+                    count = counts[kind[c]]
                     for w in range(count):
                         more[c, k - windows[c, 0], w] = p[own + w]
                     own += count
@@ -415,7 +422,7 @@ def _march(
                     value += felt[0, n, i, j] * moved[j] + felt[1, n, i, j] * moving[j]
                 u[i] = value
             if hertzian:
-                for w in range(count):
+                for w in range(counts[n]):
                     u[2 * w + 1] += more[c, k - windows[c, 0], w]
             for i in range(size):
                 re, im = states[0, c, i], states[1, c, i]
