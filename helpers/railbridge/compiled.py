@@ -83,7 +83,7 @@ def march(plan: Plan) -> Marched:
     rows, cars = kinds.shown.shape[2], len(plan.cars)
     loads = np.zeros((cars, longest, rows))
     rail = np.zeros((cars, longest, 2 * wheels) if hertzian else (1, 1, 1))
-    pressed = np.zeros((cars, 2, wheels))
+    pressed = np.zeros((cars, wheels, 6))
     states = np.zeros((2, cars, kinds.decay.shape[2]))
     for i, (car, known, start) in enumerate(zip(plan.cars, plan.known, plan.starts, strict=True)):
         acting = known
@@ -91,7 +91,7 @@ def march(plan: Plan) -> Marched:
             u = plan.rail[i]
             acting = known + car.direct @ u
             rail[i, : u.shape[1], : len(u)] = u.T
-            pressed[i, :, : len(u) // 2] = plan.pressed[i]
+            pressed[i, : len(u) // 2] = plan.pressed[i].T
         own = (car.loads @ acting).T
         loads[i, : len(own), : own.shape[1]] = own
         states[:, i, : len(start)] = start.real, start.imag
@@ -187,11 +187,16 @@ def _solve(a, b):
 
 
 @_compiled
-def _press(count, linear, answer, load, depth, p):
-    """Find p of Hertzian contacts in place, see `stepping.pressing`; return whether it settled."""
+def _press(count, linear, answer, contacts, memory, p):
+    """Find p of Hertzian contacts in place, see `stepping.pressing`; return whether it settled.
+
+    Contacts and memory have a row for each wheel.
+    """
     inverse, matrix = np.empty((count, count + 1)), np.empty((count, count))
-    free, d = np.empty((count, 1)), np.empty((count, 1))
-    force, step = np.empty((count, 1)), np.empty((count, 1))
+    free, d, force, step = (
+        np.empty((count, 1)), np.empty((count, 1)), np.empty((count, 1)), np.empty((count, 1)),
+    )  # fmt: skip
+    rate, still, tangent = np.zeros(count), np.zeros(count), np.empty(count)
     for i in range(count):
         for j in range(count):
             inverse[i, j] = 1.0 if i == j else 0.0
@@ -199,36 +204,44 @@ def _press(count, linear, answer, load, depth, p):
         inverse[i, count] = linear[i]
     _solve(matrix, inverse)
     for i in range(count):
-        k = 1.5 * load[i] / depth[i]
-        free[i, 0] = depth[i] - (load[i] - inverse[i, count]) / k
+        load, depth, damping, decay, before, beta = contacts[i]
+        alpha = decay * memory[i, 0] + before * memory[i, 1]
+        free[i, 0] = depth - alpha - beta * (load - inverse[i, count])
         d[i, 0] = free[i, 0]
-    for _ in range(MOST):
+        if damping > 0.0:
+            k = 1.5 * load / depth
+            rate[i] = (1.0 / beta - k) / load
+            still[i] = depth - alpha / (1.0 - k * beta)
+    settled = False
+    for _ in range(MOST + 1):
         for i in range(count):
-            share = max(d[i, 0] / depth[i], 0.0)
-            force[i, 0] = load[i] * share * np.sqrt(share)
-        for i in range(count):
-            k = 1.5 * load[i] / depth[i]
-            step[i, 0] = d[i, 0] - free[i, 0]
-            for j in range(count):
-                opening = -((1.0 if i == j else 0.0) + inverse[i, j]) / k
-                step[i, 0] += opening * force[j, 0]
-                root = np.sqrt(max(d[j, 0] / depth[j], 0.0))
-                matrix[i, j] = opening * 1.5 * load[j] / depth[j] * root
-            matrix[i, i] += 1.0
-        _solve(matrix, step)
-        still = True
-        for i in range(count):
-            d[i, 0] -= step[i, 0]
-            still &= abs(step[i, 0]) / depth[i] <= TOLERANCE
-        if still:
-            for i in range(count):
-                share = max(d[i, 0] / depth[i], 0.0)
-                force[i, 0] = load[i] * share * np.sqrt(share)
+            load, depth = contacts[i, 0], contacts[i, 1]
+            share = max(d[i, 0] / depth, 0.0)
+            more, root = 1.0 + rate[i] * (d[i, 0] - still[i]), np.sqrt(share)
+            force[i, 0] = max(load * share * root * more, 0.0)
+            tangent[i] = 1.5 * load / depth * root * more + load * share * root * rate[i]
+            if force[i, 0] <= 0.0:
+                tangent[i] = 0.0
+        if settled:
             for i in range(count):
                 p[i] = -inverse[i, count]
                 for j in range(count):
                     p[i] -= inverse[i, j] * force[j, 0]
+                memory[i, 0] = contacts[i, 1] - d[i, 0]
+                memory[i, 1] = contacts[i, 0] - force[i, 0] + p[i]
             return True
+        for i in range(count):
+            step[i, 0] = d[i, 0] - free[i, 0]
+            for j in range(count):
+                opening = -contacts[i, 5] * ((1.0 if i == j else 0.0) + inverse[i, j])
+                step[i, 0] += opening * force[j, 0]
+                matrix[i, j] = opening * tangent[j]
+            matrix[i, i] += 1.0
+        _solve(matrix, step)
+        settled = True
+        for i in range(count):
+            d[i, 0] -= step[i, 0]
+            settled &= abs(step[i, 0]) / contacts[i, 1] <= TOLERANCE
     return False
 
 
@@ -237,7 +250,8 @@ def _march(
     first, samples, onward, reach,
     tables, at, axles, load_tables, load_at, loads_of,
     of_cars, kind, windows, known, rail, pressed, states,
-    decay, drive, shown, loaded, felt, pressing, wheels, direct, given, counts, hertzian, found, more,
+    decay, drive, shown, loaded, felt, pressing, wheels, direct, given, counts,
+    hertzian, found, more,
 ):  # fmt: skip
     """Run the loop of `stepping.march`; return whether all contacts settled."""
     modes, cars = reach.shape[1], len(kind)
@@ -255,7 +269,8 @@ def _march(
     moved, moving, u = np.zeros(places), np.zeros(places), np.zeros(d)
     coupled, right = np.zeros((modes, modes)), np.zeros((modes, 1 + most))
     linear, answer, p = np.zeros(most), np.zeros((most, most)), np.zeros(most)
-    load, depth = np.zeros(most), np.zeros(most)
+    contacts, memory = np.zeros((most, 6)), np.zeros((most, 2))
+    kept = np.zeros((cars, direct.shape[1], 2))
     per_wheel = np.zeros((most, modes))
     here_at = np.full(cars, first - 1)  # when each was last on the deck
     low = 0
@@ -303,9 +318,8 @@ def _march(
                 # them.
                 own = columns - 1
                 for w in range(count):
-                    load[own + w] = pressed[c, 0, w]
-                    depth[own + w] = pressed[c, 1, w]
-                    value = -load[own + w]
+                    contacts[own + w], memory[own + w] = pressed[c, w], kept[c, w]
+                    value = -pressed[c, w, 0]
                     for i in range(size):
                         value += (
                             wheels[0, n, w, i] * states[0, c, i]
@@ -318,10 +332,12 @@ def _march(
                     for w in range(count):
                         for i in range(count):
                             answer[w, i] = direct[n, w, 2 * i + 1]
-                    if not _press(count, linear[own:], answer, load[own:], depth[own:], p[own:]):
+                    if not _press(
+                        count, linear[own:], answer, contacts[own:], memory[own:], p[own:]
+                    ):
                         return False
                     for w in range(count):
-                        more[c, now, w] = p[own + w]
+                        more[c, now, w], kept[c, w] = p[own + w], memory[own + w]
             if not here:
                 continue
             on += 1
@@ -386,7 +402,7 @@ def _march(
                         for i in range(count):
                             answer[own + w, own + i] += direct[kind[c], w, 2 * i + 1]
                     own += count
-            if not _press(columns - 1, linear, answer, load, depth, p):
+            if not _press(columns - 1, linear, answer, contacts, memory, p):
                 return False
             own = 0
             for c in range(low, cars):
@@ -394,6 +410,7 @@ def _march(
                     count = counts[kind[c]]
                     for w in range(count):
                         more[c, k - windows[c, 0], w] = p[own + w]
+                        kept[c, w] = memory[own + w]
                     own += count
             for m in range(modes):
                 for i in range(columns - 1):

@@ -251,7 +251,7 @@ def _refuse_condensed(train: AnyTrain, asked: Options) -> None:
 
 
 def _refuse_other_contacts(train: AnyTrain) -> None:
-    """Refuse Hertzian contacts where wheels have no mass, carry nothing, or stand on dampers."""
+    """Refuse Hertzian contacts where wheels have no mass or carry nothing."""
     if not train.kinds():
         allowed = "bare axle loads have no contacts"
         raise InputError("contact", "hertz", allowed, "Leave contact out, or use vehicles")
@@ -263,9 +263,6 @@ def _refuse_other_contacts(train: AnyTrain) -> None:
             allowed = f"of {vehicle.name} the contacts are springs of {found:.3g} N/m, the "
             allowed += f"suspension; wheel on rail has {SOFTEST_CONTACT:g} N/m or more"
             raise InputError("contact", "hertz", allowed, remedy)
-        if vehicle.contact_damping[:, 1].any():
-            allowed = f"{vehicle.name} has dampers in its contacts, Hertz's law has none"
-            raise InputError("contact", "hertz", allowed, "Take them out, or leave contact out")
         for wheel in vehicle.contacts:
             if wheel.static_load <= 0.0:
                 allowed = (

@@ -22,12 +22,16 @@ Everything but p is linear, which leaves one system of the size of the number of
 contact p = 0, and cars are stepped only while they are on the deck: `F_known` is then their force
 on a rigid deck.
 
-A Hertzian contact carries ``P(d) = P0 (d / d0)^(3/2)`` where it is pressed together by d > 0, and
-nothing where it is not; d0 = 3 P0 / (2 k) is what makes k its stiffness at the static load P0.
-Where the contact's spring is stretched by e it is pressed by ``d0 - e``, and p, what it carries
-more than its tangent, is the solution of
+A Hertzian contact carries
 
-    p = P(d0 - e) - P0 + k e,       e = (y - u) / k,
+    P = P0 (d / d0)^(3/2) (1 + c d' / P0)
+
+where it is pressed together by d > 0, and nothing where that is not positive; d0 = 3 P0 / (2 k) and
+the damping (Hunt & Crossley 1975) make k and c its spring and damper at the static load P0. Where
+these are stretched by e it is pressed by ``d = d0 - e``, and p, what it carries more than they do,
+is the solution of
+
+    p = P(d, d') - P0 + k e + c e'
 
 for all wheels at once, by Newton's method in each step (`pressing`). Cars are then stepped over the
 whole record from the start of their run-up.
@@ -43,7 +47,7 @@ import numpy as np
 from .coupling import CoupledCar, Coupling
 from .errors import brief
 from .guideways import Stations
-from .response import SampledResponse, oscillator
+from .response import SampledResponse, oscillator, ramp_coefficients
 from .tracks import Track
 from .trains import rail_input
 
@@ -120,8 +124,10 @@ class Plan:
         The first sample, not above 0, and how many there are from 0 on.
     rail : tuple of ndarray, shape (d, samples of the window), or None
         u_rail; None where the contact is permanent.
-    pressed : tuple of ndarray, shape (2, wheels), or None
-        P0 (N) and d0 (m) of every wheel; None where the contact is permanent.
+    pressed : tuple of ndarray, shape (6, wheels), or None
+        Of every wheel P0 (N), d0 (m) and c (N s/m), and how spring and damper are stretched: e from
+        that of the sample before, from g = k e + c e' there, and from the new g. None where the
+        contact is permanent.
     """
 
     __repr__ = brief
@@ -196,7 +202,7 @@ def plan(coupling: Coupling, track: Track | None = None) -> Plan:
             np.ascontiguousarray(u.reshape(-1, u.shape[-1])[:, : stop - start])
             for (_, u), (start, stop) in zip(inputs, windows, strict=True)
         )
-        pressed = tuple(_pressed(c) for c in cars)
+        pressed = tuple(_pressed(c, coupling.settings.time_step) for c in cars)
         starts = [-(car.ahead @ u[:, 0]) for car, u in zip(steps, rail, strict=True)]
     onward, reach = _deck_steps(coupling)
     couples = coupling.cars[0].load_matrix.shape[1] == 5
@@ -277,10 +283,17 @@ def _placed(stations: Stations) -> np.ndarray:
     return np.stack([stations.starts, stations.counts, stations.which], axis=1)
 
 
-def _pressed(c: CoupledCar) -> np.ndarray:
-    """Return P0 and d0 of a car's wheels."""
-    load = -c.static[:, 1]
-    return np.stack([load, 1.5 * load / c.car.vehicle.contact_stiffness[:, 1]])
+def _pressed(c: CoupledCar, time_step: float) -> np.ndarray:
+    """Return what a car's Hertzian contacts are, see `Plan.pressed`."""
+    vehicle, load = c.car.vehicle, -c.static[:, 1]
+    k, damping = vehicle.contact_stiffness[:, 1], vehicle.contact_damping[:, 1]
+    shares = np.zeros((3, len(k)))
+    shares[2] = 1.0 / k
+    has = damping > 0.0
+    poles = -k[has] / damping[has]
+    a, b0, b1 = (values.real for values in ramp_coefficients(poles, time_step))
+    shares[:, has] = a, b0 / damping[has], b1 / damping[has]
+    return np.stack([load, 1.5 * load / k, damping, *shares])
 
 
 # ---- the loop
@@ -327,11 +340,12 @@ def march(plan: Plan, progress: Callable[[str], None] | None = None) -> Marched:
     more: tuple[np.ndarray, ...] = ()
     if plan.rail is not None:
         more = tuple(np.zeros((len(own) // 2, own.shape[1])) for own in plan.rail)
+    memory = [np.zeros((2, len(own) // 2)) for own in plan.rail or ()]
     before = np.zeros((3, modes))
     for k in range(plan.first, plan.samples):
         if progress is not None and k % 500 == 0:
             progress(f"step {k} of {plan.samples}")
-        before, inputs = step(plan, k, before, states, more)
+        before, inputs = step(plan, k, before, states, more, memory)
         if k >= 0:
             deck[:, :, k] = before
         for i, u in inputs.items():
@@ -345,6 +359,7 @@ def step(
     before: np.ndarray,
     states: Sequence[np.ndarray],
     more: tuple[np.ndarray, ...] = (),
+    memory: list[np.ndarray] | None = None,
 ) -> tuple[np.ndarray, dict[int, np.ndarray]]:
     """Solve train and deck at one sample.
 
@@ -358,6 +373,8 @@ def step(
         s of every car.
     more : tuple of ndarray
         See `Marched`; this sample's is filled in.
+    memory : list of ndarray
+        Of every car what `pressing` remembers; this sample's is filled in.
 
     Returns
     -------
@@ -386,11 +403,11 @@ def step(
     if plan.pressed is not None:
         for own in met:
             if own.per is None:
-                _press(plan, k, [own], more)
+                _press(plan, k, [own], more, memory)
         if on:
             through = [own.through[:, 1::2] for own in on]
             gain = np.linalg.solve(coupled, np.concatenate(through, axis=1))
-            new = new + gain @ _press(plan, k, on, more, new, gain)
+            new = new + gain @ _press(plan, k, on, more, memory, new, gain)
     inputs = {}
     for own in met:
         u = inputs[own.car] = own.u if own.per is None else own.u + own.per @ new
@@ -450,6 +467,7 @@ def _press(
     k: int,
     met: Sequence[_Met],
     more: tuple[np.ndarray, ...],
+    memory: list[np.ndarray],
     new: np.ndarray | None = None,
     gain: np.ndarray | None = None,
 ) -> np.ndarray:
@@ -463,6 +481,8 @@ def _press(
         Cars that meet: all on the deck, or one off it.
     more : tuple of ndarray
         See `Marched`.
+    memory : list of ndarray
+        See `step`.
     new : ndarray, shape (modes,), optional
         The deck's new forces with p = 0.
     gain : ndarray, shape (modes, wheels), optional
@@ -476,7 +496,6 @@ def _press(
     cars = [plan.cars[own.car] for own in met]
     ends = np.cumsum([0, *(len(own.u) // 2 for own in met)])
     linear, answer = np.zeros(ends[-1]), np.zeros((ends[-1], ends[-1]))
-    pressed = np.zeros((2, ends[-1]))
     for own, car, a, b in zip(met, cars, ends[:-1], ends[1:], strict=True):
         forces = own.force
         answer[a:b, a:b] = car.direct[1::2, 1::2]
@@ -486,9 +505,11 @@ def _press(
             linear[a:b] = forces[1::2] + per @ new
         else:
             linear[a:b] = forces[1::2]
-        pressed[:, a:b] = plan.pressed[own.car]
-    found = pressing(linear, answer, *pressed)
+    contacts = np.concatenate([plan.pressed[own.car] for own in met], axis=1)
+    before = np.concatenate([memory[own.car] for own in met], axis=1)
+    found, after = pressing(linear, answer, contacts, before)
     for own, a, b in zip(met, ends[:-1], ends[1:], strict=True):
+        memory[own.car] = after[:, a:b]
         more[own.car][:, k - plan.windows[own.car, 0]] = found[a:b]
     return found
 
