@@ -67,7 +67,7 @@ def test_hertzian_contact_is_that_of_the_differential_equations(amplitude, loss,
         errors.append(np.sqrt(np.mean((ours - force)[1:] ** 2)) / force.std())
         assert np.max(np.abs(moved - middle)) < 40.0 * (step / 2e-2) ** 2 * np.max(np.abs(middle))
         assert run.parted.any() == parts
-    assert errors[-1] < 1e-3
+    assert errors[-1] < 1.5e-3
     # With the square of the step, as for contacts that hold.
     assert errors[1] < errors[0] / 2.2 and errors[2] < errors[1] / 2.2
     linear = crossing(rider, SPEED, LENGTH, EI, MASS, 0.01, 4, rails, times, unilateral=False)[0]

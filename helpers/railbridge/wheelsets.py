@@ -59,6 +59,8 @@ class Wheelset:
         Of its centre above the rail, m; default 0.46, or wheel_radius if that is given.
     contact_stiffness : tuple of 2 floats, optional
         Lateral and vertical stiffness of the contact, N/m per wheel. Or give radii and material.
+    contact_damping : float
+        Vertical damping of the contact, N s/m per wheel: what contact and rail take away.
     wheel_radius : float, optional
         Of the rolling circle, m; default 0.46. From the radii and the material follows the vertical
         stiffness by Hertz, at the static load of the wheel, and the lateral one by Mindlin.
@@ -83,6 +85,7 @@ class Wheelset:
     gauge: Annotated[float, Range(least=0.0, most=5.0, unit="m")] = GAUGE
     height: Annotated[float, Range(unit="m")] | None = None
     contact_stiffness: Annotated[tuple[float, float], Range(least=0.0, unit="N/m")] | None = None
+    contact_damping: Annotated[float, Range(least=0.0, unit="N s/m")] = 0.0
     wheel_radius: Annotated[float, Range(least=0.05, most=5.0, unit="m")] | None = None
     rail_head_radius: Annotated[float, Range(least=0.05, most=5.0, unit="m")] | None = None
     contact_modulus: Annotated[float, Range(least=1e9, most=1e12, unit="Pa")] | None = None
@@ -134,12 +137,13 @@ class Wheelset:
     def contacts(self) -> tuple[Spring, ...]:
         """Its contacts, left before right; needs their stiffness, see `standing`."""
         places = (self.gauge / 2, -self.gauge / 2) if self.gauge else (0.0,)
-        lateral, vertical = (_WHEELS / len(places) * k for k in self.contact_stiffness)
-        springs = (
-            Spring(self.name, "rail", (self.x, y, 0.0), (lateral, vertical), (0.0, 0.0))
+        wheels = _WHEELS / len(places)
+        lateral, vertical = (wheels * k for k in self.contact_stiffness)
+        damping = 0.0, wheels * self.contact_damping
+        return tuple(
+            Spring(self.name, "rail", (self.x, y, 0.0), (lateral, vertical), damping)
             for y in places
         )
-        return tuple(springs)
 
 
 def _given(thing: Any) -> dict[str, float]:
@@ -230,6 +234,7 @@ def with_wheelsets(
     height: float | None = None,
     contact_stiffness: float | None = None,
     contact_lateral_stiffness: float | None = None,
+    contact_damping: float = 0.0,
     wheel_radius: float | None = None,
     rail_head_radius: float | None = None,
     contact_modulus: float | None = None,
@@ -262,6 +267,8 @@ def with_wheelsets(
     contact_stiffness, contact_lateral_stiffness : float, optional
         N/m per wheel. Without the first Hertz's contact counts; without the second Mindlin's share
         of the vertical stiffness.
+    contact_damping : float
+        N s/m per wheel, vertical.
     wheel_radius, rail_head_radius, contact_modulus, contact_poisson : float, optional
         See `HertzContact`; defaults 0.46 m, 0.3 m, 210 GPa, 0.3.
     longitudinal_stiffness, longitudinal_damping : float
@@ -302,6 +309,7 @@ def with_wheelsets(
             "contact_modulus": contact_modulus, "contact_poisson": contact_poisson,
         },
         {name: errors.number(name, k, least=0.0) for name, k in along.items()},
+        errors.number("contact_damping", contact_damping, least=0.0, unit="N s/m"),
     )  # fmt: skip
     return own.on_wheelsets()
 
@@ -317,6 +325,7 @@ class _Axles:
     stiffness: tuple[float | None, float | None]
     hertz: Mapping[str, float | None]
     along: Mapping[str, float]
+    damping: float
 
     def __post_init__(self) -> None:
         known = {name: v for name, v in self.hertz.items() if v is not None}
@@ -387,7 +396,8 @@ class _Axles:
         sideways = any(s.stiffness[0] or s.damping[0] for s in springs)
         gauge = (self.gauge or GAUGE) * wide
         pair = self._contact(axle, sideways)
-        return Wheelset(name, axle.x, gauge=gauge, height=height, contact_stiffness=pair, **inertia)
+        contact = {"contact_stiffness": pair, "contact_damping": self.damping}
+        return Wheelset(name, axle.x, gauge=gauge, height=height, **contact, **inertia)
 
     def _contact(self, axle: Axle, sideways: bool) -> tuple[float, float]:
         """Return lateral and vertical stiffness of a wheel of an axle, N/m."""

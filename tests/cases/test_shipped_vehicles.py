@@ -85,8 +85,26 @@ def test_files_hold_what_was_published(name):
     assert all(b.freedoms == ("z", "pitch") for b in car.bodies)
 
 
+WHEELED = {"xia2000_wheelsets": {"roll_inertia": 1000.0}, "xia2000_planar_wheelsets": {}}
+
+
+@pytest.mark.parametrize("name", WHEELED)
+def test_the_papers_car_on_wheelsets_is_the_papers_car(name):
+    car, plain = rb.vehicle(name), rb.vehicle(name.removesuffix("_wheelsets"))
+    made = rb.with_wheelsets(plain, mass=1800.0, contact_damping=100e3, **WHEELED[name])
+    for matrix in ("mass_matrix", "stiffness_matrix", "damping_matrix"):
+        assert getattr(car, matrix) == pytest.approx(getattr(made, matrix), rel=1e-9)
+    # By Hertz 1.33739e9 N/m at 80 kN a wheel; an axle in the plane has two.
+    load = 585.76e3 / 8 + 900.0 * 9.81
+    wheels = 2 if "planar" in name else 1
+    expected = wheels * 1.33739e9 * np.cbrt(load / 80e3)
+    assert car.contact_stiffness[:, 1] == pytest.approx(expected, rel=1e-5)
+    assert car.contact_damping[:, 1] == pytest.approx(wheels * 100e3)
+    assert car.weight == pytest.approx(plain.weight + 4 * 1800.0 * 9.81)
+
+
 def test_every_shipped_file_says_its_source_and_is_held_by_a_test():
-    known = {*PUBLISHED, "sprung_mass", "xia2000", "xia2000_planar"}
+    known = {*PUBLISHED, "sprung_mass", "xia2000", "xia2000_planar", *WHEELED}
     assert set(shelf.data_names("vehicles")) == known
     for name in PUBLISHED:
         content = shelf.read_toml(shelf.data_file("vehicles", name))

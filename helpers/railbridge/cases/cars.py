@@ -36,6 +36,7 @@ CAR_PARAMETERS = {
     "gauge": Range(above=0.0, most=5.0, unit="m"),
     "primary_longitudinal_stiffness": _STIFFNESS, "primary_longitudinal_damping": _DAMPING,
     "contact_stiffness": CONTACT_STIFFNESS, "contact_lateral_stiffness": CONTACT_STIFFNESS,
+    "contact_damping": _DAMPING,
     **{name: kind.range for name, kind in field_types(HertzContact).items()},
 }  # fmt: skip
 """Names of a two-bogie car's parameters (Table 1) and what each may be, with its SI unit."""
