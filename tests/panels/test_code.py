@@ -9,7 +9,7 @@ from railbridge.panels.code import case_lines
 
 NAMES = [
     "irregularities", "rigid_forces", "deck_modes", "deck_response", "fixed_point",
-    "map_and_crossing", "overview",
+    "map_and_crossing", "overview", "wheels_with_mass",
 ]  # fmt: skip
 
 
@@ -28,9 +28,13 @@ def close():
 def test_the_code_is_short_and_plain_and_draws(all_panels, name):
     code = all_panels[name].code
     lines = [line for line in code.splitlines() if line.strip()]
-    assert 8 <= len(lines) <= 14 and max(map(len, lines)) <= 88
+    # One that starts far from the paper's case is written out, a table a line.
+    far = "rb.Case({" in code
+    assert 8 <= len(lines) <= 14 and max(map(len, lines)) <= (100 if far else 88)
+    assert far == (name == "wheels_with_mass")
     assert lines[0] == "import railbridge as rb"
-    assert 'rb.case("paper").replace({' in code and "rb.plots." in code
+    assert far or 'rb.case("paper").replace({' in code
+    assert "rb.plots." in code
     before = len(plt.get_fignums())
     scope = {}
     exec(code, scope)

@@ -18,6 +18,7 @@ BEHIND = {
     },
     "fixed_point": {"force": "rank 1", "displacement": "rank 1", "deviations": "rigid None"},
     "map_and_crossing": {"force": "rank 1", "displacement": "displacement_z "},
+    "wheels_with_mass": {"force": "force_z", "acceleration": "acceleration_z deck"},
     "overview": {"forces": "force_z", "moments": "moment_y", "displacement": "displacement_z "},
 }  # fmt: skip
 

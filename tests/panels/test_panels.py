@@ -16,7 +16,7 @@ from railbridge import panels
 
 NAMES = [
     "irregularities", "rigid_forces", "deck_modes", "deck_response", "fixed_point",
-    "map_and_crossing", "overview",
+    "map_and_crossing", "overview", "wheels_with_mass",
 ]  # fmt: skip
 QUICK = {"run.time_step": None, "train.cars": 2}
 
@@ -443,6 +443,7 @@ def test_labels_say_what_a_control_changes_and_in_which_unit(all_panels):
     labels = {
         "speed": "speed (m/s)", "wavelength": "wavelength (m)", "amplitude": "amplitude (mm)",
         "cars": "cars", "iteration": "iteration", "loads": "loads", "mode": "mode",
+            "contact": "contact",
         "damping_ratio": "damping (%)", "first_frequency": "at first (Hz)",
         "second_frequency": "and second (Hz)", "place": "first axle (m)",
     }  # fmt: skip
