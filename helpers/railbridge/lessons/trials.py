@@ -381,6 +381,28 @@ def _descending(f_1: float, distance: float, low: float, high: float) -> np.ndar
     return np.array([v for v in f_1 * distance / np.arange(1, 100) if low <= v <= high])
 
 
+def _hertz() -> list[Case]:
+    def case(words: str, depths: list[float], load: float, stiffness: float) -> Case:
+        depth, at_rest = np.array(depths), load / stiffness * 3 / 2
+        shares = np.where(depth > 0.0, np.abs(depth / at_rest) ** 1.5, 0.0)
+        return Case(words, (depth, load, stiffness), load * shares)
+
+    return [
+        case("at the depth of rest, and around it", [8e-5, 1e-4, 1.5e-4], 8e4, 1.2e9),
+        case("a contact that parts", [2e-5, 0.0, -3e-5], 6e4, 1.0e9),
+        case("an axle of 164 kN", [9.1e-5, -1e-3, 2e-4], 164e3, 2.7e9),
+    ]
+
+
+def _linear(depth: np.ndarray, load: float, stiffness: float) -> np.ndarray:
+    return load + stiffness * (depth - 1.5 * load / stiffness)
+
+
+def _that_pulls(depth: np.ndarray, load: float, stiffness: float) -> np.ndarray:
+    share = depth / (1.5 * load / stiffness)
+    return load * np.sign(share) * np.abs(share) ** 1.5
+
+
 TRIALS = {
     "frequencies": Trial(
         _frequencies,
@@ -418,6 +440,13 @@ TRIALS = {
     "lever_rule": Trial(_lever_rule),
     "resonances": Trial(
         _resonances, slips=(Slip(_descending, "they descend: sort them, the smallest first."),)
+    ),
+    "hertz": Trial(
+        _hertz,
+        slips=(
+            Slip(_linear, "that is the tangent, permanent contact. Hertz's law is (13.3)."),
+            Slip(_that_pulls, "a contact that has parted carries nothing: it must not pull."),
+        ),
     ),
 }
 """The functions that exercises ask for, by the name that each bears in its notebook."""
