@@ -68,8 +68,8 @@ __all__ = [
     "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box", "car_parameters",
     "case", "check", "compared", "cross", "data_root", "deck", "deck_from_table",
     "deviation_percent", "hslm_b", "load_model", "open_study", "planar_car", "rayleigh",
-    "rayleigh_ratio", "remarks", "speed_envelope", "sprung_mass", "steady_forces", "summarize", "sweep",
-    "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
+    "rayleigh_ratio", "remarks", "speed_envelope", "sprung_mass", "steady_forces", "summarize",
+    "sweep", "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
 ]  # fmt: skip
 
 
