@@ -71,11 +71,16 @@ def resonances(f_1, distance, low, high):
     return [f_1 * distance / i for i in range(last, max(first, 1) - 1, -1)]
 
 
+def hertz(depth, load, stiffness):
+    at_rest = 1.5 * load / stiffness
+    return [load * (d / at_rest) ** 1.5 if d > 0.0 else 0.0 for d in depth]
+
+
 WRITTEN = {
     f.__name__: f
     for f in (
         frequencies, notch_shape, condense, rayleigh_coefficients, static_moment, fixed_point,
-        one_force, lever_rule, resonances,
+        one_force, lever_rule, resonances, hertz,
     )
 }  # fmt: skip
 
