@@ -60,8 +60,8 @@ PAGES = {
         ("try",),
         ("You need", "Time"),
     ),
-    # A car that moves, and the step of a mode by hand.
-    "03": Page(words=(500, 1520), code_lines=(40, 135)),
+    # A car that moves, the step of a mode by hand, and how far its wheels may have no mass.
+    "03": Page(words=(500, 1600), code_lines=(40, 145)),
     # The loop twice: once in fifteen lines without the suite.
     "06": Page(words=(500, 2000), code_lines=(40, 180)),
     # Every table and result of the paper, each with its picture and its layout.
