@@ -129,3 +129,24 @@ def test_a_contact_that_is_pulled_carries_nothing():
     p = pressing(linear, answer, load, depth)
     carried = -(linear + answer @ p)
     assert abs(carried[0]) < 1e-6 and carried[1] == pytest.approx(8e4)
+
+
+@pytest.mark.parametrize("compiles", [True, False])
+def test_contacts_obey_hertz_where_the_track_starts_with_a_step(compiles, monkeypatch):
+    if not compiles:
+        monkeypatch.setattr("railbridge.direct.has_compiler", lambda: False)
+    car = rb.with_wheelsets(rb.planar_car(rb.vehicle("xia2000")), mass=1800.0)
+    deck, r, speed = rb.deck("viaduct36"), 6e-5, 40.0
+    track = rb.Track(vertical=rb.Table(x=[-200.0, 600.0], r=[r, r]))
+    train = rb.Train(car, cars=2, car_spacing=25.03)
+    run = rb.cross(train, deck, track, speed=speed, contact="hertz", lead_in=0.0, tail=0.1)
+    bodies = sorted(car.wheelsets, key=lambda body: -body.position[0])
+    for wheel, force in zip(train.wheels, run.wheel_forces[:, 1], strict=True):
+        x = speed * run.time - wheel.delay
+        on_rail = np.where(x > -1e-9, r, 0.0)
+        on_rail = on_rail + np.einsum("km,mk->k", deck.shapes(x)[:, :, 1], run.state.q)
+        moved = run.car_motion(wheel.car)[f"{bodies[wheel.number - 1].name} z"]
+        load = wheel.static_load
+        at_rest = 1.5 * load / car.contact_stiffness[wheel.number - 1, 1]
+        share = np.maximum(1.0 - (moved - on_rail) / at_rest, 0.0)
+        assert force == pytest.approx(-load * share**1.5, abs=1e-9 * load)

@@ -187,7 +187,6 @@ def plan(coupling: Coupling, track: Track | None = None) -> Plan:
             for c, own in zip(cars, static, strict=True)
         ]
         rail = pressed = None
-        starts = [np.zeros(len(car.drive), car.drive.dtype) for car in steps]
     else:
         inputs = [rail_input(c.car, track, coupling.settings.passage) for c in cars]
         windows = [(first, max(first, samples)) for first, _ in inputs]
@@ -197,7 +196,7 @@ def plan(coupling: Coupling, track: Track | None = None) -> Plan:
             for (_, u), (start, stop) in zip(inputs, windows, strict=True)
         )
         pressed = tuple(_pressed(c) for c in cars)
-        starts = [-(car.ahead @ u[:, 0]) for car, u in zip(steps, rail, strict=True)]
+    starts = [np.zeros(len(car.drive), car.drive.dtype) for car in steps]
     onward, reach = _deck_steps(coupling)
     couples = coupling.cars[0].load_matrix.shape[1] == 5
     speed = coupling.settings.speed
