@@ -83,7 +83,9 @@ def test_hertzian_contacts_of_cars_with_several_numbers_of_wheels():
     for cars in ([small, large], [large, small, large]):
         train = rb.Train(cars, car_spacing=24.0)
         pair = both(train, SHORT, contact="hertz", speed=60.0, time_step=1e-3)
-        assert all(more.shape[0] == len(car.contacts) for more, car in zip(pair[1].more, cars, strict=True))
+        assert all(
+            more.shape[0] == len(car.contacts) for more, car in zip(pair[1].more, cars, strict=True)
+        )
         assert apart(pair) < 1e-11
 
 

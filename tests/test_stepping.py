@@ -150,3 +150,22 @@ def test_contacts_obey_hertz_where_the_track_starts_with_a_step(compiles, monkey
         at_rest = 1.5 * load / car.contact_stiffness[wheel.number - 1, 1]
         share = np.maximum(1.0 - (moved - on_rail) / at_rest, 0.0)
         assert force == pytest.approx(-load * share**1.5, abs=1e-9 * load)
+
+
+def test_iteration_0_of_hertzian_contacts_is_that_of_a_rigid_deck():
+    car = rb.with_wheelsets(rb.planar_car(rb.vehicle("xia2000")), mass=1800.0)
+    train, track = rb.Train(car, cars=2), rb.Track(vertical=rb.Harmonic(2e-3, wavelength=2.5))
+    options = {"speed": 60.0, "contact": "hertz", "lead_in": 40.0, "tail": 0.2, "time_step": 5e-4}
+    soft, rigid = (
+        rb.cross(train, rb.Beam("beam", (20.0,), 6e3, ei).deck(3, 0.02), track, **options)
+        for ei in (3e9, 3e16)
+    )
+    load = train.wheels[0].static_load
+    assert np.abs(soft.wheel_forces - rigid.wheel_forces).max() > load
+    assert soft.at(0).wheel_forces == pytest.approx(rigid.wheel_forces, abs=1e-6 * load)
+    assert soft.at(0).body_accelerations == pytest.approx(rigid.body_accelerations, abs=1e-6)
+    # And back again, without a trace.
+    again = soft.at(0).at(1)
+    assert again.wheel_forces == pytest.approx(soft.wheel_forces, abs=1e-9 * load)
+    before = rb.spectra.deviation_percent(soft.spectrum, rigid.spectrum)
+    assert soft.deviations.from_rigid[0] == pytest.approx(before, rel=1e-4)

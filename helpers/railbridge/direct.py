@@ -20,7 +20,7 @@ from .errors import brief, frozen
 from .stepping import Marched, Plan, march, plan
 from .tracks import Track
 
-__all__ = ["Direct", "has_compiler", "solve_directly"]
+__all__ = ["Direct", "has_compiler", "on_rigid_deck", "solve_directly"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +76,28 @@ def solve_directly(
         coupling = _with_more(coupling, track, found.more)
     state = DeckState(*map(frozen, (found.q, found.velocity, found.force)))
     return Direct(coupling, coupling.train_pass(state), state)
+
+
+def on_rigid_deck(coupling: Coupling, track: Track) -> Coupling:
+    """Return a coupling whose Hertzian contacts stand on a rigid deck: iteration 0.
+
+    Parameters
+    ----------
+    coupling : Coupling
+        With Hertzian contacts, as `solve_directly` leaves it or as it was prepared.
+    track : Track
+        That of the coupling.
+
+    Raises
+    ------
+    ArithmeticError
+        A contact whose force does not settle.
+    """
+    steps = plan(coupling, track)
+    axles, loads = steps.axles.copy(), steps.loads.copy()
+    axles[:, 1] = loads[:, 1] = 0  # never on the deck
+    found = _marched(replace(steps, axles=axles, loads=loads), None)
+    return _with_more(coupling, track, found.more)
 
 
 def _marched(steps: Plan, progress: Callable[[str], None] | None) -> Marched:
