@@ -103,8 +103,10 @@ def on_rigid_deck(coupling: Coupling, track: Track) -> Coupling:
 def _marched(steps: Plan, progress: Callable[[str], None] | None) -> Marched:
     # A car whose modes nearly coincide has no diagonal form, which the compiled loop needs.
     if has_compiler() and all(car.decay.ndim == 1 for car in steps.cars):
-        from . import compiled
-
+        try:
+            from . import compiled
+        except ImportError:  # a compiler that does not go with this NumPy
+            return march(steps, progress)
         if progress is not None:
             progress("the compiled loop runs (the first time it is compiled, for some seconds)")
         return compiled.march(steps)
