@@ -129,6 +129,21 @@ def test_the_memory_that_is_foreseen_is_about_what_is_used(cars, options):
     assert 0.7 * used < foreseen + 5e6 and foreseen < 4.0 * used + 5e6
 
 
+def test_the_memory_of_hertzian_contacts_is_foreseen():
+    """Every car has a run of its own, on this deck and, for Eq. 3, on a rigid one."""
+    train = rb.Train(rb.with_wheelsets(CAR, mass=1800.0, roll_inertia=900.0), cars=8)
+    options = {"speed": 40.0, "time_step": 5e-4, "contact": "hertz"}
+    foreseen = bytes_needed(train, DECK, check(train, DECK, rb.Track(), **options)) - 1.2e8
+    rb.cross(train, DECK, **options)  # what is compiled is not counted
+    tracemalloc.start()
+    run = rb.cross(train, DECK, **options)
+    assert run.deviations.from_rigid.shape == (1,) and not run.parted.any()
+    assert np.isfinite(run.body_accelerations).all()
+    used = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert 0.95 * used < foreseen < 2.0 * used
+
+
 @pytest.mark.parametrize("length, damping", [(8.0, 0.01), (12.0, 0.02), (20.0, (2.0, 1e-4))])
 def test_the_chosen_step_keeps_accelerations(length, damping):
     """Eight samples in a period of the highest mode: within 2 %, displacements within 6e-4, of a

@@ -377,7 +377,12 @@ def bytes_needed(train: AnyTrain, deck: Guideway, settings: Settings, points: in
     forces = 6.0 * wheels * samples + 20.0 * len(cars) * samples
     iterated = (passes + 8.0) * 2 * wheels * on_deck
     summary = (5.0 * STATIONS + 9.0 * points) * samples
-    return 8.0 * (kept + working + state + forces + iterated + summary) + 1.2e8
+    contacts = 0.0
+    if s.contact == "hertz":
+        # What the rail gives every car and what its contacts carry, on this deck and a rigid one.
+        each = ((record - car.axles[0].delay / advance) * len(car.wheels) for car in cars)
+        contacts = 6.0 * sum(each)
+    return 8.0 * (kept + working + state + forces + iterated + summary + contacts) + 1.2e8
 
 
 def refuse_bytes(
