@@ -187,3 +187,15 @@ def test_the_way_that_auto_took_is_told():
     )
     asked = rb.cross(rb.Train(WHEELED), DECK, interaction="direct", **level)
     assert not any("auto" in t for t in said(asked))
+
+
+@pytest.mark.parametrize("contact", ["permanent", "hertz"])
+def test_wheelsets_do_not_make_a_settled_run_up_look_transient(contact):
+    car = rb.with_wheelsets(rb.planar_car(CAR), mass=1800.0)
+    track = rb.Track(vertical=rb.Harmonic(1e-3, wavelength=3.0))
+    for lead_in, told in ((5.0, True), (150.0, False)):
+        options = {"speed": 40.0, "lead_in": lead_in, "contact": contact, "interaction": "direct"}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            run = rb.cross(rb.Train(car), DECK, track, **options)
+        assert any("transient" in text for text in said(run)) == told

@@ -265,6 +265,19 @@ def test_a_short_run_up_that_starts_within_the_approach_is_level_before():
 
 
 @pytest.mark.parametrize("rail", [SLEEPERS, BED])
+def test_hertzian_contacts_load_the_deck_before_a_run_up_that_starts_late(rail):
+    car = rb.with_wheelsets(CAR, mass=1800.0, roll_inertia=1000.0)
+    train, deck = rb.Train(car, cars=2, car_spacing=22.5), replace(DECK, rail=rail)
+    options = {"speed": 40.0, "contact": "hertz", "time_step": 1e-3, "tail": 0.2}
+    # On level track nothing depends on where a run-up begins.
+    long, none = (rb.cross(train, deck, lead_in=x, **options) for x in (60.0, 0.0))
+    assert none.state.q == pytest.approx(long.state.q, abs=1e-9 * np.abs(long.state.q).max())
+    assert none.wheel_forces == pytest.approx(long.wheel_forces, abs=1e-2)
+    for name in ("car z", "front wheelset 1 z"):
+        assert none.car_motion(2)[name] == pytest.approx(long.car_motion(2)[name], abs=1e-10)
+
+
+@pytest.mark.parametrize("rail", [SLEEPERS, BED])
 def test_direct_is_the_limit_of_the_iteration(rail):
     train, deck = rb.Train(CAR, cars=2, car_spacing=22.5), elastic(rail=rail)
     runs = [

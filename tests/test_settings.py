@@ -129,6 +129,55 @@ def test_the_memory_that_is_foreseen_is_about_what_is_used(cars, options):
     assert 0.7 * used < foreseen + 5e6 and foreseen < 4.0 * used + 5e6
 
 
+def test_a_step_too_coarse_for_hertzian_contacts_is_refused():
+    car = rb.with_wheelsets(CAR, mass=1800.0, roll_inertia=900.0)
+    track, options = rb.Track(), {"speed": 40.0, "lead_in": 0.0, "tail": 0.1}
+    most = 1.0 / car.highest_frequency / 3.0
+    with pytest.raises(rb.InputError, match=f"at most {most:.3g} s") as refused:
+        check(rb.Train(car), DECK, track, contact="hertz", time_step=1.01 * most, **options)
+    assert refused.value.field == "time_step"
+    check(rb.Train(car), DECK, track, time_step=1.01 * most, **options)
+    # The coarsest one allowed carries the train.
+    run = rb.cross(rb.Train(car), DECK, contact="hertz", time_step=0.999 * most, **options)
+    slow = rb.cross(rb.Train(car), DECK, time_step=0.999 * most, interaction="direct", **options)
+    moved, expected = (r.displacement(18.0)["displacement_z"] for r in (run, slow))
+    assert moved == pytest.approx(expected, abs=0.01 * np.abs(expected).max())
+    assert not run.parted.any()
+
+
+def test_the_step_is_chosen_for_hertzian_contacts_of_masses_that_are_no_wheelsets():
+    frame = rb.Body("frame", 100.0, (0.0, 50.0, 0.0), (0.0, 0.0, 1.0), ("z", "pitch"))
+    car = rb.Body("car", 5e3, (0.0, 5e4, 0.0), (0.0, 0.0, 2.0), ("z", "pitch"))
+    springs = [
+        rb.Spring(low, high, (x, 0.0, z), (0.0, stiffness), (0.0, damping))
+        for x in (1.0, -1.0)
+        for low, high, z, stiffness, damping in (
+            ("frame", "rail", 0.0, 1e9, 0.0), ("car", "frame", 1.0, 1e6, 1e4),
+        )
+    ]  # fmt: skip
+    vehicle = rb.Vehicle("trolley", (car, frame), tuple(springs), 10.0)
+    assert vehicle.contact_frequency == 0.0 and vehicle.highest_frequency > 500.0
+    options = {"speed": 40.0, "contact": "hertz", "lead_in": 0.0, "tail": 0.1}
+    run = rb.cross(rb.Train(vehicle), DECK, **options)
+    static = np.array([[wheel.static_load] for wheel in run.train.wheels])
+    assert run.wheel_forces[:, 1] / -static == pytest.approx(1.0, abs=0.02)
+
+
+def test_the_memory_of_hertzian_contacts_is_foreseen():
+    """Every car has a run of its own, on this deck and, for Eq. 3, on a rigid one."""
+    train = rb.Train(rb.with_wheelsets(CAR, mass=1800.0, roll_inertia=900.0), cars=8)
+    options = {"speed": 40.0, "time_step": 5e-4, "contact": "hertz"}
+    foreseen = bytes_needed(train, DECK, check(train, DECK, rb.Track(), **options)) - 1.2e8
+    rb.cross(train, DECK, **options)  # what is compiled is not counted
+    tracemalloc.start()
+    run = rb.cross(train, DECK, **options)
+    assert run.deviations.from_rigid.shape == (1,) and not run.parted.any()
+    assert np.isfinite(run.body_accelerations).all()
+    used = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert 0.95 * used < foreseen < 2.0 * used
+
+
 @pytest.mark.parametrize("length, damping", [(8.0, 0.01), (12.0, 0.02), (20.0, (2.0, 1e-4))])
 def test_the_chosen_step_keeps_accelerations(length, damping):
     """Eight samples in a period of the highest mode: within 2 %, displacements within 6e-4, of a

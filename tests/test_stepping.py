@@ -161,3 +161,43 @@ def test_a_damper_in_the_contact_adds_the_law_of_hunt_and_crossley():
     assert carried == pytest.approx(law, rel=1e-9)
     assert stretched == pytest.approx(load - carried + found[0])
     assert rate < 0.0 and law > 1.05 * load * ((depth - stretch) / depth) ** 1.5
+
+
+@pytest.mark.parametrize("compiles", [True, False])
+def test_contacts_obey_hertz_where_the_track_starts_with_a_step(compiles, monkeypatch):
+    if not compiles:
+        monkeypatch.setattr("railbridge.direct.has_compiler", lambda: False)
+    car = rb.with_wheelsets(rb.planar_car(rb.vehicle("xia2000")), mass=1800.0)
+    deck, r, speed = rb.deck("viaduct36"), 6e-5, 40.0
+    track = rb.Track(vertical=rb.Table(x=[-200.0, 600.0], r=[r, r]))
+    train = rb.Train(car, cars=2, car_spacing=25.03)
+    run = rb.cross(train, deck, track, speed=speed, contact="hertz", lead_in=0.0, tail=0.1)
+    bodies = sorted(car.wheelsets, key=lambda body: -body.position[0])
+    for wheel, force in zip(train.wheels, run.wheel_forces[:, 1], strict=True):
+        x = speed * run.time - wheel.delay
+        on_rail = np.where(x > -1e-9, r, 0.0)
+        on_rail = on_rail + np.einsum("km,mk->k", deck.shapes(x)[:, :, 1], run.state.q)
+        moved = run.car_motion(wheel.car)[f"{bodies[wheel.number - 1].name} z"]
+        load = wheel.static_load
+        at_rest = 1.5 * load / car.contact_stiffness[wheel.number - 1, 1]
+        share = np.maximum(1.0 - (moved - on_rail) / at_rest, 0.0)
+        assert force == pytest.approx(-load * share**1.5, abs=1e-9 * load)
+
+
+def test_iteration_0_of_hertzian_contacts_is_that_of_a_rigid_deck():
+    car = rb.with_wheelsets(rb.planar_car(rb.vehicle("xia2000")), mass=1800.0)
+    train, track = rb.Train(car, cars=2), rb.Track(vertical=rb.Harmonic(2e-3, wavelength=2.5))
+    options = {"speed": 60.0, "contact": "hertz", "lead_in": 40.0, "tail": 0.2, "time_step": 5e-4}
+    soft, rigid = (
+        rb.cross(train, rb.Beam("beam", (20.0,), 6e3, ei).deck(3, 0.02), track, **options)
+        for ei in (3e9, 3e16)
+    )
+    load = train.wheels[0].static_load
+    assert np.abs(soft.wheel_forces - rigid.wheel_forces).max() > load
+    assert soft.at(0).wheel_forces == pytest.approx(rigid.wheel_forces, abs=1e-6 * load)
+    assert soft.at(0).body_accelerations == pytest.approx(rigid.body_accelerations, abs=1e-6)
+    # And back again, without a trace.
+    again = soft.at(0).at(1)
+    assert again.wheel_forces == pytest.approx(soft.wheel_forces, abs=1e-9 * load)
+    before = rb.spectra.deviation_percent(soft.spectrum, rigid.spectrum)
+    assert soft.deviations.from_rigid[0] == pytest.approx(before, rel=1e-4)

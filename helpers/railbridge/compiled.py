@@ -2,11 +2,12 @@
 
 The same formulas in plain loops. Only what the deck needs is made at each sample: what the axles
 load it with, `L R s + L (D - 1) (K m + C m')`, whose matrices are multiplied before. Compiled code
-is kept on disk, beside this file or in the user's cache.
+is kept on disk, beside this file or in the user's cache, where one of them can be written.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +18,15 @@ from .stepping import MOST, TOLERANCE, CarSteps, Marched, Plan
 
 __all__ = ["march"]
 
-_compiled = njit(cache=True, fastmath={"contract", "reassoc"}, error_model="numpy")
+_OPTIONS = {"fastmath": {"contract", "reassoc"}, "error_model": "numpy"}
+
+
+def _compiled(function: Callable) -> Callable:
+    try:
+        return njit(cache=True, **_OPTIONS)(function)
+    except RuntimeError:
+        # Neither this folder nor the user's cache can be written: every process compiles anew.
+        return njit(**_OPTIONS)(function)
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,7 @@ from .errors import brief, frozen
 from .stepping import Marched, Plan, march, plan
 from .tracks import Track
 
-__all__ = ["Direct", "has_compiler", "solve_directly"]
+__all__ = ["Direct", "has_compiler", "on_rigid_deck", "solve_directly"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,11 +78,35 @@ def solve_directly(
     return Direct(coupling, coupling.train_pass(state), state)
 
 
+def on_rigid_deck(coupling: Coupling, track: Track) -> Coupling:
+    """Return a coupling whose Hertzian contacts stand on a rigid deck: iteration 0.
+
+    Parameters
+    ----------
+    coupling : Coupling
+        With Hertzian contacts, as `solve_directly` leaves it or as it was prepared.
+    track : Track
+        That of the coupling.
+
+    Raises
+    ------
+    ArithmeticError
+        A contact whose force does not settle.
+    """
+    steps = plan(coupling, track)
+    axles, loads = steps.axles.copy(), steps.loads.copy()
+    axles[:, 1] = loads[:, 1] = 0  # never on the deck
+    found = _marched(replace(steps, axles=axles, loads=loads), None)
+    return _with_more(coupling, track, found.more)
+
+
 def _marched(steps: Plan, progress: Callable[[str], None] | None) -> Marched:
     # A car whose modes nearly coincide has no diagonal form, which the compiled loop needs.
     if has_compiler() and all(car.decay.ndim == 1 for car in steps.cars):
-        from . import compiled
-
+        try:
+            from . import compiled
+        except ImportError:  # a compiler that does not go with this NumPy
+            return march(steps, progress)
         if progress is not None:
             progress("the compiled loop runs (the first time it is compiled, for some seconds)")
         return compiled.march(steps)

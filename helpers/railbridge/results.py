@@ -21,6 +21,7 @@ from .decks import (
     History,
     Line,
 )
+from .direct import on_rigid_deck
 from .errors import InputError, brief, frozen
 from .settings import STATIONS, Settings
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
@@ -120,12 +121,14 @@ class Crossing:
     iteration : int
         Which iteration the methods speak of.
     coupling : Coupling
-        What all iterations share.
+        What all iterations share; with Hertzian contacts that of its own iteration.
     states : dict of DeckState
         The deck's state by iteration, as far as it is known; shared by what `at` returns.
     windows : Windows or None
         The windows in time in which the fixed point was found, where passes over the whole record
         grew; iteration 1 is then the fixed point.
+    couplings : dict of Coupling
+        With Hertzian contacts those of the iterations asked for; shared by what `at` returns.
     """
 
     __repr__ = brief
@@ -141,6 +144,7 @@ class Crossing:
     coupling: Coupling = field(repr=False)
     states: dict[int, DeckState] = field(default_factory=dict, repr=False)
     windows: Windows | None = None
+    couplings: dict[int, Coupling] = field(default_factory=dict, repr=False)
 
     # ---- the iteration
 
@@ -165,7 +169,13 @@ class Crossing:
     def at(self, iteration: int) -> Crossing:
         """Return the same crossing as it stood at an iteration; 0 is the rigid deck's forces."""
         errors.integer("iteration", iteration, most=self.iterations)
-        return replace(self, iteration=iteration)
+        if self.settings.contact != "hertz" or iteration == self.iteration:
+            return replace(self, iteration=iteration)
+        # What contacts carry depends on the deck's motion: iteration 0 has its own.
+        self.couplings[self.iteration] = self.coupling
+        if iteration not in self.couplings:
+            self.couplings[iteration] = on_rigid_deck(self.coupling, self.track)
+        return replace(self, iteration=iteration, coupling=self.couplings[iteration])
 
     @cached_property
     def spectrum(self) -> Spectrum:

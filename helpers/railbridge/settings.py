@@ -30,6 +30,8 @@ SAMPLES_PER_CONTACT, COARSE_SAMPLES_PER_CONTACT = 18, 8
 Between samples the rail is a chord; a spring k above a mass m takes that for a force that is
 (w h)^2 / 12 of the mass's inertia off, w^2 = k/m: 1 % and 5 % of what the wheelset adds.
 """
+LEAST_SAMPLES_PER_CONTACT = 3
+"""Of a vehicle's fastest motion on Hertzian contacts; fewer are refused."""
 SAMPLES_PER_PERIOD = 8
 """Of the highest mode kept, in a step that is chosen: accelerations are then within 2 %."""
 COARSE_SAMPLES_PER_PERIOD = 3
@@ -308,6 +310,9 @@ def _time_step(train: AnyTrain, deck: Guideway, track: Track, asked: Options) ->
     if step is None:
         fine = SAMPLES_PER_PERIOD * highest_frequency(deck)
         most = max(1.0 / fine, FINEST_STEP) if fine > 0.0 else np.inf
+        if asked.contact == "hertz":  # also under masses that are no wheelsets
+            fastest = max(vehicle.highest_frequency for vehicle, _ in train.kinds())
+            most = min(most, 1.0 / fastest / COARSE_SAMPLES_PER_CONTACT)
         return default_time_step(train, track, speed, min(most, 1e-3))
     for length, samples, what in [
         (_shortest(train, track), SAMPLES_PER_LENGTH, "of irregularity"),
@@ -317,7 +322,26 @@ def _time_step(train: AnyTrain, deck: Guideway, track: Track, asked: Options) ->
             few = f"leaves fewer than {samples} samples in {length:g} m {what}; "
             few += f"at most {length / samples / speed:.3g} s"
             raise InputError("time_step", step, few, "Leave time_step out to have it chosen")
+    if asked.contact == "hertz":
+        _refuse_coarse_contact(train, step)
     return step
+
+
+def _refuse_coarse_contact(train: AnyTrain, step: float) -> None:
+    """Refuse a step in which a Hertzian contact would close under its own force.
+
+    A mass m on a spring k, stepped by h under forces linear in between, answers the new one by
+    1 - sin(w h) / (w h), w^2 = k/m: beyond half a period by more than all of it, and then a contact
+    that carries nothing is a solution, too.
+    """
+    for vehicle, _ in train.kinds():
+        frequency = vehicle.highest_frequency
+        if step * frequency * LEAST_SAMPLES_PER_CONTACT > 1.0:
+            most = 1.0 / frequency / LEAST_SAMPLES_PER_CONTACT
+            few = f"leaves fewer than {LEAST_SAMPLES_PER_CONTACT} samples in a period of "
+            few += f"{vehicle.name} on its Hertzian contacts, {frequency:.4g} Hz; at most "
+            few += f"{most:.3g} s"
+            raise InputError("time_step", step, few, "Leave time_step out to have it chosen")
 
 
 def highest_frequency(deck: Guideway) -> float:
@@ -374,7 +398,12 @@ def bytes_needed(train: AnyTrain, deck: Guideway, settings: Settings, points: in
     forces = 6.0 * wheels * samples + 20.0 * len(cars) * samples
     iterated = (passes + 8.0) * 2 * wheels * on_deck
     summary = (5.0 * STATIONS + 9.0 * points) * samples
-    return 8.0 * (kept + working + state + forces + iterated + summary) + 1.2e8
+    contacts = 0.0
+    if s.contact == "hertz":
+        # What the rail gives every car and what its contacts carry, on this deck and a rigid one.
+        each = ((record - car.axles[0].delay / advance) * len(car.wheels) for car in cars)
+        contacts = 6.0 * sum(each)
+    return 8.0 * (kept + working + state + forces + iterated + summary + contacts) + 1.2e8
 
 
 def refuse_bytes(

@@ -69,8 +69,6 @@ class CarSteps:
         S; complex where the car's modes are known, of which only one of each pair is kept.
     drive : ndarray, shape (m, d)
         Q.
-    ahead : ndarray, shape (m, d)
-        What the new sample's input adds to the state at once.
     show : ndarray, shape (d, m)
         R.
     direct : ndarray, shape (d, d)
@@ -85,7 +83,6 @@ class CarSteps:
 
     decay: np.ndarray
     drive: np.ndarray
-    ahead: np.ndarray
     show: np.ndarray
     direct: np.ndarray
     stiffness: np.ndarray
@@ -193,7 +190,6 @@ def plan(coupling: Coupling, track: Track | None = None) -> Plan:
             for c, own in zip(cars, static, strict=True)
         ]
         rail = pressed = None
-        starts = [np.zeros(len(car.drive), car.drive.dtype) for car in steps]
     else:
         inputs = [rail_input(c.car, track, coupling.settings.passage) for c in cars]
         windows = [(first, max(first, samples)) for first, _ in inputs]
@@ -203,7 +199,7 @@ def plan(coupling: Coupling, track: Track | None = None) -> Plan:
             for (_, u), (start, stop) in zip(inputs, windows, strict=True)
         )
         pressed = tuple(_pressed(c, coupling.settings.time_step) for c in cars)
-        starts = [-(car.ahead @ u[:, 0]) for car, u in zip(steps, rail, strict=True)]
+    starts = [np.zeros(len(car.drive), car.drive.dtype) for car in steps]
     onward, reach = _deck_steps(coupling)
     couples = coupling.cars[0].load_matrix.shape[1] == 5
     speed = coupling.settings.speed
@@ -251,7 +247,7 @@ def _car_steps(coupling: Coupling, c: CoupledCar) -> CarSteps:
         for values in (vehicle.contact_stiffness, vehicle.contact_damping)
     )
     loads = c.load_matrix.reshape(-1, len(direct))
-    return CarSteps(decay, drive, ahead, show, direct, stiffness, damping, loads)
+    return CarSteps(decay, drive, show, direct, stiffness, damping, loads)
 
 
 def _deck_steps(coupling: Coupling) -> tuple[np.ndarray, np.ndarray]:

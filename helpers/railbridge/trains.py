@@ -297,7 +297,7 @@ class AnyTrain:
         passage : Passage
         more : sequence of ndarray, shape (wheels of the car, n) for each car, optional
             What its contacts carry more than their springs do, N, upwards on the wheels, from the
-            start of its run-up (see `rail_input`) to the end of the record.
+            sample at which it starts (see `rail_input`) to the end of the record.
 
         Returns
         -------
@@ -364,6 +364,7 @@ class AnyTrain:
             if key not in known:
                 u = _rail_input(car, track, passage, fraction)
                 if more is not None:
+                    u = _from_rest(u, passage)
                     own = more[car.number - 1]
                     u[:, 1, : own.shape[1]] += own
                 if u.any():
@@ -378,13 +379,23 @@ class AnyTrain:
 
 
 def rail_input(car: Car, track: Track, passage: Passage) -> tuple[int, np.ndarray]:
-    """Return the sample at which a car's run-up begins, and k r + c r' from there on.
+    """Return the sample at which a car starts, and k r + c r' from there on.
 
-    The input, N, has the shape (wheels, 2, n), lateral before vertical.
+    That is one before its run-up begins or, if that is later, where it first feels the deck through
+    a rail. The input, N, has the shape (wheels, 2, n), lateral before vertical.
     """
     shift, fraction = passage.entry(car)
-    u = _rail_input(car, track, passage, fraction)
+    u = _from_rest(_rail_input(car, track, passage, fraction), passage)
     return shift + passage.samples - u.shape[-1], u
+
+
+def _from_rest(u: np.ndarray, passage: Passage) -> np.ndarray:
+    """Return an input with level track before it, from where the deck is first felt.
+
+    At least one sample of it, so that what a contact carries more starts from nothing, too.
+    """
+    missing = passage.samples + passage.before + 1 - u.shape[-1]
+    return np.pad(u, ((0, 0), (0, 0), (max(missing, 1), 0)))
 
 
 def _rail_input(car: Car, track: Track, passage: Passage, fraction: float) -> np.ndarray:
