@@ -4,8 +4,8 @@ On a finite record with a smooth answer the passes settle in the end, like ``(c 
 of them over a time T; before, they may grow beyond all numbers. Over a short window there is no
 such growth. So the record is cut into windows, each is iterated until it has settled, and hands on
 where train and deck then stand. Where the changes do not fall the window is halved; where they fall
-fast the next one is twice as long. A window that would be too short to be worth it is stepped through,
-train and deck solved together at every sample, so that there is always an end.
+fast the next one is twice as long. A window that would be too short to be worth it is stepped
+through, train and deck solved together at every sample, so that there is always an end.
 """
 
 from __future__ import annotations
