@@ -119,6 +119,7 @@ def test_an_envelope_has_one_row_a_train_speed_and_place(here, capsys):
         (("--trains", "HSLM-B", "--speeds", "50"), "--trains.*n = 10, d = .*railbridge sweep"),
         (("--trains", "ICE2", "--speeds", "150-300km/h"), "--speeds = .*use a colon"),
         (("--trains", "ICE2", "--speeds", "300:150km/h"), "--speeds.*ascend"),
+        (("--trains", "ICE2", "--speeds", "150:300"), r"--speeds\[2\] = 300.*at most 200 m/s"),
         (("--trains", "ICE2", "--speeds", "50", "--points", "30"), r"--points\[1\].*12 m\.$"),
         (("--trains", "ICE2", "--speeds", "50:60", "--points", "30"), r": --points\[1\].*12 m\.$"),
         (("--trains", "HSLM-A1", "--speeds", "50", "--cluster", "nonsense"), "--cluster"),

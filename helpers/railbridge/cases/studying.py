@@ -23,7 +23,7 @@ from ..settings import MEMORY_LIMIT
 from ..trains import AxleTrain
 from . import findings, pages, shelf, staging, sweeping
 from .axletrains import train_list
-from .ranges import unit_of, values_of, written_ends, written_range
+from .ranges import unit_of, written_ends, written_range
 from .speech import say, tell
 from .studytrains import trains_of_case
 
@@ -153,7 +153,8 @@ def _is_file(train: Any) -> bool:
 def _envelope(given: argparse.Namespace) -> int:
     ends = written_ends("--speeds", given.speeds, "speed")
     speeds = np.array(ends) if ends else written_range("--speeds", given.speeds, "speed")
-    values_of("--speeds", speeds)
+    with errors.within(names={"speeds": "--speeds"}):
+        studies.checked_speeds(speeds)
     points = None
     if given.points is not None:
         points = written_range("--points", given.points, "length")
