@@ -31,9 +31,9 @@ import numpy as np
 
 __all__ = [
     "FieldType", "InputError", "InputWarning", "ROUNDED", "Range", "Remark", "ResultWarning",
-    "boolean", "brief", "check_fields", "choice", "clipped", "did_you_mean", "field_types",
-    "frozen", "instance", "instances", "integer", "is_list", "joined", "keys", "number", "numbers",
-    "place", "places", "plain", "printable", "table", "text", "within",
+    "boolean", "brief", "check_fields", "choice", "clipped", "counted", "did_you_mean",
+    "field_types", "frozen", "instance", "instances", "integer", "is_list", "joined", "keys",
+    "number", "numbers", "place", "places", "plain", "printable", "table", "text", "within",
     "written",
 ]  # fmt: skip
 
@@ -208,6 +208,14 @@ def _brief(value: Any) -> str:
         text = ", ".join(parts)
         return f"[{text}]" if len(value) <= 6 and len(text) <= 60 else f"<{len(value)} items>"
     return _short(value)
+
+
+def counted(names: Sequence[str], most: int) -> str:
+    """Return ``A, B and C``, or ``A, B, C and 4 more`` where there are more than `most`."""
+    shown = [str(name) for name in names]
+    if len(shown) > most:
+        shown = [*shown[: most - 1], f"{len(shown) - most + 1} more"]
+    return " and ".join(part for part in (", ".join(shown[:-1]), shown[-1]) if part)
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

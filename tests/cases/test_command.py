@@ -483,6 +483,41 @@ def test_check_says_doubts_too(here, capsys):
     assert "can be run" in out[0] and err[0].startswith(f"railbridge: warning: {SOFT}")
 
 
+def test_check_shows_the_modes_of_the_deck(here, capsys):
+    _, out, _ = command(capsys, "check", "paper")
+    assert out[0].endswith("deck: 20 modes, f1 = 3.307 Hz, up to 162.1 Hz")
+
+
+def test_check_takes_a_deck_file(here, capsys):
+    deck = (here / "case.toml").read_text(encoding="utf-8").split("[deck]")[1].split("[train]")[0]
+    (here / "deck.toml").write_text(deck, encoding="utf-8")
+    made = rb.deck("deck.toml")
+    code, out, err = command(capsys, "check", "deck.toml")
+    assert (code, len(out), err) == (0, 1, [])
+    modes = (
+        f"{made.length:g} m; {made.frequencies_hz.size} modes, f1 = {made.frequencies_hz[0]:.4g}"
+    )
+    assert modes in out[0] and "railbridge envelope deck.toml --trains" in out[0]
+    assert command(capsys, "check", "viaduct36")[1][0].startswith("viaduct36: a deck that can be")
+    (here / "deck.toml").write_text(deck.replace("5e9", "5e6"), encoding="utf-8")
+    code, out, err = command(capsys, "check", "deck.toml")
+    assert (code, len(out), len(err)) == (0, 1, 1)
+    assert err[0].startswith("railbridge: warning: bending_stiffness_vertical gives a first")
+    code, out, err = command(capsys, "check", "deck.toml", "--strict")
+    assert (code, out) == (2, []) and err[0].startswith("railbridge: bending_stiffness_vertical")
+    assert "--set" in refused(capsys, "check", "deck.toml", "--set", "mass=9e3")
+    (here / "deck.toml").write_text(deck.replace("5e9", "-5e9"), encoding="utf-8")
+    assert "bending_stiffness_vertical" in refused(capsys, "check", "deck.toml")
+    (here / "other.toml").write_text("answer = 42", encoding="utf-8")
+    assert "none of the keys" in refused(capsys, "check", "other.toml")
+
+
+def test_damping_as_a_number_is_answered_by_how_it_is_written(here, capsys):
+    changed("damping = { modal = 0.02 }", "damping = 0.015")
+    line = refused(capsys, "check", "case.toml")
+    assert "deck.damping = 0.015: must be a table" in line and "{ modal = 0.015 }" in line
+
+
 def test_strict_refuses_doubts_and_computes_nothing(here, capsys, monkeypatch):
     changed("5e9", "5e6")
     monkeypatch.setattr(rb.Case, "compute", lambda *_: pytest.fail("computed"))

@@ -230,6 +230,7 @@ def test_files(tmp_path):
         ("deck.mode", 5, "deck.mode"),
         ("train.spacing", 5.0, "train.spacing: unknown key. Did you mean 'car_spacing'"),
         ("deck.", 5.0, 'deck."" = 5.0: cannot stand beside deck.file'),
+        ("deck.mass", 9e3, "deck.mass = 9000.0: cannot stand beside deck.file.* write the deck"),
         ("run.", 5.0, 'run."": unknown key'),
         ("run.a b", 5.0, 'run."a b": unknown key'),
         ("track.vertical.wave", 1.0, "track.vertical.wave: unknown key"),

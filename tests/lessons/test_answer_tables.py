@@ -99,3 +99,16 @@ def test_hints_and_counts_of_a_list_are_used():
 def test_a_guess_earns_no_marks_and_everything_else_does():
     for name, asked in exercises().items():
         assert asked.marks == 0 if name.endswith("guess") or name == "0.1" else asked.marks > 0
+
+
+def test_a_mass_that_breaks_the_limit_is_no_answer_to_7_2():
+    """A4 reaches 17.030 m/s2 on 15 t/m at the speeds of Figure 7.6, 17.124 between them."""
+    for mass, right in ((72.8, False), (72.95, False), (73.0, True), (73.4, True), (74.0, True)):
+        assert exercise("7.2").reply(mass).right == right
+        assert not right or 15.0 * 17.030 / mass <= 3.5
+    assert not exercise("7.2").reply(75.0).right  # it is the least that is asked for
+
+
+def test_a_speed_in_km_h_is_named_where_lengths_are_asked_for():
+    says = exercise("7.1").reply([60 / 3.6 / 3.307, 60 / 1.334]).says
+    assert "is a speed in km/h where m/s belongs" in says

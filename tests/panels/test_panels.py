@@ -594,3 +594,15 @@ def test_the_page_of_the_app_is_the_explorer_and_asks_nobody_else(tmp_path):
         exec("\n".join(lines), scope)
     assert isinstance(eval(last, scope), panels.Panel)
     assert not any("http" in cell.source for cell in cells)
+
+
+def test_the_dot_reaches_all_of_the_map(all_panels):
+    panel, study = all_panels["map_and_crossing"], rb.open_study("speed_wavelength")
+    fastest, longest = float(study.speed.max()), float(study.wavelength.max())
+    assert panel.controls["speed"].high == fastest
+    assert longest - 0.1 < panel.controls["wavelength"].high <= longest
+    panel.set(speed=60.0, wavelength=60.0 / study.car_frequency_hz)
+    assert "(-0.1 %); displacement" in panel.summary  # on the line of the car, beyond 40 m
+    panel.reset()
+    few = study.sel(speed=slice(None, 20.0), wavelength=slice(None, 20.0))
+    assert panels.map_and_crossing(study=few).values == {"speed": 20.0, "wavelength": 14.4}

@@ -22,12 +22,13 @@ from typing import Any, NoReturn
 import numpy as np
 
 from ..crossing import NotConvergedError
-from ..errors import InputError, InputWarning, Remark, integer, printable
+from ..decks import Deck
+from ..errors import InputError, InputWarning, Remark, integer, printable, within
 from ..lessons import exercises, marking
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
-from . import copies, pages, shelf, staging, studying
+from . import copies, pages, shelf, staging, studying, tables
 from .axletrains import train_list
 from .definition import Case, case
 from .speech import note, nowhere, say, tell
@@ -51,8 +52,10 @@ examples:
   railbridge run case.toml --out results     run it; results/summary.json has the numbers
   railbridge run paper --out paper           run a shipped case by its name
   railbridge run case.toml --out fast --set run.speed=30 --set train.cars=4
-  railbridge envelope deck.toml --trains HSLM-A --speeds 150:300:5km/h --out envelope
+  railbridge check deck.toml                 the same for a deck file, with its frequencies
+  railbridge envelope deck.toml --trains HSLM-A --speeds 150:300km/h --out envelope
                                              the largest response to ten trains over speeds
+  railbridge new --study study.toml          write a commented study file
   railbridge sweep study.toml --out study    a case over values of any of its keys
   railbridge list                            vehicles, decks and cases that are shipped
   railbridge copy-notebooks my-course        the lessons as copies of your own; done again, it
@@ -183,11 +186,12 @@ def _parser() -> argparse.ArgumentParser:
     add(
         "check",
         _check,
-        "say whether a case can be run, and how large the run is",
+        "say whether a case can be run, and how large the run is; or what a deck file makes",
         parents=[changes],
     )
     new = add("new", _new, "write a commented case file that runs as it is")
     new.add_argument("file", help="file to write; one that exists is left alone")
+    new.add_argument("--study", action="store_true", help="a study file for railbridge sweep")
     listing = add("list", _list, "list shipped vehicles, trains, decks and cases")
     listing.add_argument("kind", nargs="?", choices=KINDS, help="all four if left out")
     copying = add(
@@ -348,6 +352,8 @@ def _write(
 
 
 def _check(given: argparse.Namespace) -> int:
+    if _is_deck(given.case):
+        return _check_deck(given)
     loaded = _case(given)
     if _said_doubts(loaded, given.strict) and given.strict:
         return 2
@@ -357,9 +363,45 @@ def _check(given: argparse.Namespace) -> int:
     wheels = len(loaded.train.wheels)
     tell(
         f"{given.case}: can be run; {wheels} wheels, {seconds:.3g} s in steps of "
-        f"{s.time_step:.3g} s, {needed / 1e9:.2g} GB"
+        f"{s.time_step:.3g} s, {needed / 1e9:.2g} GB; deck: {_modes(loaded.deck)}"
     )
     return 0
+
+
+def _is_deck(name: str) -> bool:
+    """Whether a name is that of a shipped deck, or of a file with the keys of a deck's."""
+    if not shelf.is_path(name):
+        shipped = shelf.data_names("cases", ".toml")
+        return name not in shipped and name in shelf.data_names("decks", ".toml")
+    keys = shelf.read_toml(shelf.data_file("cases", name, ".toml")).keys()
+    return not keys & tables.CASE.model_fields.keys() and bool(keys & tables.DECK_KEYS)
+
+
+def _check_deck(given: argparse.Namespace) -> int:
+    if given.set:
+        allowed = f"changes keys of a case, and {given.case} is a deck"
+        raise InputError("--set", given.set[0], allowed, "Change the file itself")
+    file = str(Path(given.case).absolute()) if shelf.is_path(given.case) else given.case
+    # Under a usual train at a usual speed, so that what is doubted is the deck.
+    train, run = {"name": "HSLM-A1"}, {"speed": 30.0}
+    with within(names={"deck": ""}):
+        loaded = case({"deck": {"file": file}, "train": train, "run": run})
+    doubts = [r for r in loaded.doubts if isinstance(r, InputWarning)]
+    for doubt in doubts:
+        say("warning: " * (not given.strict) + f"{doubt.field.removeprefix('deck.')} {doubt.text}")
+    if doubts and given.strict:
+        return 2
+    tell(
+        f"{given.case}: a deck that can be used, {loaded.deck.length:g} m; {_modes(loaded.deck)}; "
+        f"next: railbridge envelope {shlex.quote(given.case)} --trains HSLM-A "
+        "--speeds 150:300km/h --out envelope"
+    )
+    return 0
+
+
+def _modes(deck: Deck) -> str:
+    first, *_, last = [deck.frequencies_hz[0], *deck.frequencies_hz]
+    return f"{_count(len(deck.frequencies_hz), 'mode')}, f1 = {first:.4g} Hz, up to {last:.4g} Hz"
 
 
 def _new(given: argparse.Namespace) -> int:
@@ -367,7 +409,8 @@ def _new(given: argparse.Namespace) -> int:
     if path.suffix != ".toml":
         raise InputError("file", given.file, "must end in .toml")
     try:
-        _write_new(path, pages.starter(path.name))
+        make = pages.study_starter if given.study else pages.starter
+        _write_new(path, make(path.name))
     except FileExistsError:
         raise InputError(
             "file", given.file, "exists already and is left alone", "Choose another name"
@@ -375,7 +418,8 @@ def _new(given: argparse.Namespace) -> int:
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
         raise InputError("file", given.file, f"cannot be written ({why})") from None
-    tell(f"{given.file} written; run it with: railbridge run {given.file} --out results")
+    way = "sweep" if given.study else "run"
+    tell(f"{given.file} written; run it with: railbridge {way} {given.file} --out results")
     return 0
 
 

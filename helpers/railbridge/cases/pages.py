@@ -14,7 +14,7 @@ from ..units import UNITS
 from . import tables
 from .tabletypes import Table
 
-__all__ = ["rows", "schema", "starter", "unit_rows", "with_tables"]
+__all__ = ["rows", "schema", "starter", "study_starter", "unit_rows", "with_tables"]
 
 
 def schema() -> dict[str, Any]:
@@ -192,3 +192,25 @@ def starter(name: str) -> str:
             lines += _commented(f"{shown} = {value}", said)
         lines.append("")
     return "\n".join(lines[:-1]) + "\n"
+
+
+_STUDY = """\
+# A railbridge study: one case over values of its keys, all combinations. All numbers are SI.
+#
+#   railbridge sweep {name} --out my-study --dry-run     how many, how long, how large
+#   railbridge sweep {name} --out my-study
+
+case = "paper"               # a shipped case, or a case file beside this one
+measure = ["displacement_z", "acceleration_z", "wheel_unloading"]
+points = [18.0]              # m along the deck
+# trains = ["HSLM-A1", "my_train.csv"]     # instead of the case's own train; HSLM-A is all ten
+
+[over]                       # keys of the case, as in docs/case.md
+"run.speed" = { from = 10.0, to = 80.0, step = 5.0 }      # m/s, both ends; or count = 15
+"track.vertical.wavelength" = [7.2, 10.0, 14.4, 20.0]     # m
+"""
+
+
+def study_starter(name: str) -> str:
+    """Return a commented study file that runs as it is, for a file of this name."""
+    return _STUDY.replace("{name}", name)

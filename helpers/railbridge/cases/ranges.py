@@ -1,6 +1,7 @@
 """Ranges of numbers as people write them: ``150:300:25km/h``, ``20, 25, 30 m/s``, a list, a table.
 
-One unit holds for the whole range and stands at its end; without one the numbers are SI.
+One unit holds for the whole range and stands at its end; without one the numbers are SI. The last
+number is always among them: where whole steps miss it, the last step is shorter.
 """
 
 from __future__ import annotations
@@ -14,11 +15,15 @@ import numpy as np
 from .. import errors, units
 from ..errors import InputError
 
-__all__ = ["MOST", "values_of", "written_ends", "written_range"]
+__all__ = ["MOST", "unit_of", "values_of", "written_ends", "written_range"]
 
 MOST = 100_000
 """Values in one range; more are a slip."""
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.ASCII)
+_SAME = 1e-9
+"""Part of a step that rounding may leave between the last whole step and the end."""
+_DASHED = re.compile(r"\s*\d[\d.]*\s*[-\u2013]\s*\d.*", re.ASCII)
+"""A range as it is printed, 150-300; a number in the form 1e-3 begins otherwise."""
 _HOW = "Write first:last:step, as in 150:300:25km/h, or single values, as in 150,200,250km/h"
 
 
@@ -39,6 +44,8 @@ def written_range(field: str, text: str, dimension: str) -> np.ndarray:
     ranged = ":" in text
     parts = text.split(":" if ranged else ",")
     numbers, named = [], []
+    if any(_DASHED.fullmatch(part) for part in parts):
+        raise InputError(field, text, "has a dash between numbers, use a colon", _HOW)
     for part in parts:
         found = _NUMBER.fullmatch(part)
         if not found:
@@ -56,6 +63,12 @@ def written_range(field: str, text: str, dimension: str) -> np.ndarray:
         numbers = _stepped(field, text, *numbers)
     # Rounded, so that 25 km/h and 50 km/h / 2 are the same point.
     return np.round(np.array(numbers) * factor, 12)
+
+
+def unit_of(text: str) -> str:
+    """Return the unit of a range in words that is in order, empty where it has none."""
+    found = [_NUMBER.fullmatch(part) for part in re.split("[:,]", text)]
+    return next((units.spelled(part[2]) for part in found if part and part[2]), "")
 
 
 def written_ends(field: str, text: str, dimension: str) -> tuple[float, float] | None:
@@ -77,14 +90,17 @@ def _stepped(field: str, given: Any, first: float, last: float, step: float) -> 
         raise InputError(field, given, "has a step that is not above 0", _HOW)
     if last < first:
         raise InputError(field, given, "ends before it begins", "Put the smaller number first")
-    count = np.floor((last - first) / step + 1e-9) + 1.0
+    whole = np.floor((last - first) / step + _SAME)
+    missed = last - first > (whole + _SAME) * step
+    count = whole + 1.0 + missed
     if not count <= MOST:  # infinite or no number, too
         if not np.isfinite(count):
             raise InputError(field, given, "has more values than can be counted", _HOW)
         raise InputError(
             field, given, f"has {count:.0f} values, at most {MOST}", "Use a larger step"
         )
-    return [first + i * step for i in range(int(count))]
+    found = [first + i * step for i in range(int(whole) + 1)]
+    return [*found, last] if missed else found
 
 
 def values_of(field: str, given: Any) -> list[Any]:
@@ -94,7 +110,7 @@ def values_of(field: str, given: Any) -> list[Any]:
     ----------
     field : str
     given : list, array, or table
-        ``{from, to, step}``, ``{from, to, count}``, or the values.
+        ``{from, to, step}``, ``{from, to, count}``, or the values. Both ends are always in it.
 
     Raises
     ------

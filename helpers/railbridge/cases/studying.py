@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import argparse
 import sys
+import textwrap
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,8 +20,10 @@ import numpy as np
 from .. import errors, studies
 from ..errors import InputError
 from ..settings import MEMORY_LIMIT
-from . import shelf, staging, sweeping
-from .ranges import values_of, written_ends, written_range
+from ..trains import AxleTrain
+from . import findings, pages, shelf, staging, sweeping
+from .axletrains import train_list
+from .ranges import unit_of, written_ends, written_range
 from .speech import say, tell
 from .studytrains import trains_of_case
 
@@ -27,6 +31,15 @@ if TYPE_CHECKING:
     import xarray as xr
 
 __all__ = ["add_commands"]
+
+_ENVELOPE_EXAMPLES = """\
+examples:
+  railbridge envelope deck.toml --trains HSLM-A --speeds 150:300km/h --out envelope
+      speeds chosen, finer beside each peak: the safe way to find the largest response
+  railbridge envelope deck.toml --trains ICE2,my_train.csv --speeds 150:300:2.5km/h --out even
+      equal steps; a sharp peak between two of them is missed. The last speed is always in
+"""
+_UNLOADS = "wheel_unloading"
 
 SAMPLED = 2
 """Points that are computed to estimate how long the rest takes."""
@@ -63,12 +76,15 @@ def add_commands(add: Callable[..., argparse.ArgumentParser]) -> None:
     common.add_argument("-q", "--quiet", action="store_true", help="no progress; errors only")
     sweep = add(
         "sweep", _sweep, "run a case over values of its keys, as a study file says",
-        parents=[common],
+        parents=[common], formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="a study file (railbridge new --study study.toml writes it):\n\n"
+        + textwrap.indent(pages.study_starter("study.toml"), "  "),
     )  # fmt: skip
     sweep.add_argument("study", help="a study file (.toml); see docs/studies.md")
     envelope = add(
         "envelope", _envelope, "find the largest response of a deck to trains over speeds",
-        parents=[common],
+        parents=[common], formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=_ENVELOPE_EXAMPLES,
     )  # fmt: skip
     envelope.add_argument("deck", help="a deck file, a case file, or the name of a shipped one")
     envelope.add_argument(
@@ -77,8 +93,8 @@ def add_commands(add: Callable[..., argparse.ArgumentParser]) -> None:
     )  # fmt: skip
     envelope.add_argument(
         "--speeds", required=True, metavar="RANGE",
-        help="first:last:step, as 150:300:25km/h, or single values; m/s without a unit; chosen "
-        "where there is no step, 150:300km/h",
+        help="150:300km/h: chosen, finer beside each peak; 150:300:2.5km/h: in steps, the last "
+        "speed is always in; or single values, 150,200km/h; m/s without a unit",
     )  # fmt: skip
     envelope.add_argument(
         "--points", metavar="X,X", help="places along the deck, m; default mid-length"
@@ -102,7 +118,7 @@ def _sweep(given: argparse.Namespace) -> int:
         measure = found.get("measure", sweeping.MEASURE)
         trains = _beside(found.get("trains"), path.parent)
         plan = sweeping.planned(source, found.get("over", {}), trains, measure, found.get("points"))
-    return _carry_out(given, plan, "sweep", path.stem)
+    return _carry_out(given, plan, Asking("sweep", path.stem))
 
 
 def _beside(trains: Any, folder: Path) -> Any:
@@ -136,33 +152,52 @@ def _is_file(train: Any) -> bool:
 
 def _envelope(given: argparse.Namespace) -> int:
     ends = written_ends("--speeds", given.speeds, "speed")
-    speeds = None if ends else written_range("--speeds", given.speeds, "speed")
-    if speeds is not None:
-        values_of("--speeds", speeds)
+    speeds = np.array(ends) if ends else written_range("--speeds", given.speeds, "speed")
+    with errors.within(names={"speeds": "--speeds"}):
+        studies.checked_speeds(speeds)
     points = None
     if given.points is not None:
         points = written_range("--points", given.points, "length")
     listed = [name.strip() for name in given.trains.split(",") if name.strip()]
     if not listed:
         raise InputError("--trains", given.trains, "must name at least one train")
-    trains = trains_of_case([_found(t, Path()) if _is_file(t) else t for t in listed])
+    trains = trains_of_case([_listed(name) for name in listed])
     measure = [name.strip() for name in given.measure.split(",")]
     first = next(iter(trains.values()))
-    source = _case_of(given.deck, first, float(ends[0] if ends else speeds[0]))
-    with errors.within(names={"over[run.speed]": "--speeds"}):
-        if ends:
-            between = studies.Between(*ends)
-            # About as many are chosen; which, is seen on the way.
-            over = {"run.speed": np.linspace(*ends, studies.EVEN)}
-            plan = sweeping.planned(source, over, trains, measure, points)
+    source = _case_of(given.deck, first, float(speeds[0]))
+    names = {
+        "over[run.speed]": "--speeds", "points": "--points", "measure": "--measure",
+        "quantities": "--measure", "speeds": "--speeds",
+    }  # fmt: skip
+    unit = unit_of(given.speeds)
+    with errors.within(names=names):
+        between = studies.Between(*ends) if ends else None
+        plan = sweeping.planned(source, {"run.speed": speeds.tolist()}, trains, measure, points)
+        if between:
             if plan.asked.more or not plan.asked.outputs:
                 allowed = "speeds are chosen by quantities at places, and paths are none"
                 remedy = "Give the speeds a step, or measure displacement_z and the like"
                 raise InputError("--measure", given.measure, allowed, remedy)
-            return _carry_out(given, plan, "envelope", plan.deck.name, between)
-        over = {"run.speed": speeds.tolist()}
-        plan = sweeping.planned(source, over, trains, measure, points)
-    return _carry_out(given, plan, "envelope", plan.deck.name)
+            # Those that are computed in any case; which follow is seen on the way.
+            over = {"run.speed": plan.starting_speeds(between).tolist()}
+            plan = sweeping.planned(source, over, trains, measure, points)
+    return _carry_out(given, plan, Asking("envelope", plan.deck.name, between, unit))
+
+
+def _listed(name: str) -> str:
+    """Return a train of the command line, a file as its whole path; refuse one there is not."""
+    if _is_file(name):
+        return _found(name, Path())
+    if name == "HSLM-B":
+        allowed = "needs its n and d, and there is no option for them"
+        remedy = 'Write trains = { b = { name = "HSLM-B", n = 10, d = 3.5 } } into a study file'
+        raise InputError("--trains", name, allowed, f"{remedy}, for railbridge sweep")
+    known = ["HSLM-A", *(t.name for t in train_list() if t.name != "HSLM-B")]
+    if name not in known:
+        near = errors.did_you_mean(name, known) + " " if len(name) > 1 else ""
+        remedy = f"{near}Give HSLM-A (all ten), a name of railbridge list trains, or a .csv file"
+        raise InputError("--trains", name, "no such train", remedy)
+    return name
 
 
 def _case_of(name: str, train: dict[str, Any], speed: float) -> Any:
@@ -181,13 +216,29 @@ def _case_of(name: str, train: dict[str, Any], speed: float) -> Any:
     return {"deck": {"file": str(path.absolute()) if shelf.is_path(name) else name}, **own}
 
 
-def _carry_out(
-    given: argparse.Namespace,
-    plan: sweeping.Plan,
-    name: str,
-    title: str,
-    between: studies.Between | None = None,
-) -> int:
+@dataclass(frozen=True)
+class Asking:
+    """What a command was asked for, besides the plan.
+
+    Attributes
+    ----------
+    name : {"sweep", "envelope"}
+        Of the command and its files.
+    title : str
+        Said of the results.
+    between : Between, optional
+        Where speeds are chosen.
+    speed_unit : str
+        In which speeds are said; m/s if empty.
+    """
+
+    name: str
+    title: str
+    between: studies.Between | None = None
+    speed_unit: str = ""
+
+
+def _carry_out(given: argparse.Namespace, plan: sweeping.Plan, asking: Asking) -> int:
     errors.integer("--workers", given.workers, least=1, most=256)
     if given.chunk is not None:
         errors.integer("--chunk", given.chunk, least=1, most=100_000)
@@ -199,40 +250,57 @@ def _carry_out(
     if memory > MEMORY_LIMIT:
         allowed = f"the results would need {memory / 1e9:.3g} GB of memory"
         remedy = "Use fewer points or quantities, or several studies"
-        raise InputError(name, len(plan.points), allowed, remedy)
+        raise InputError(asking.name, len(plan.points), allowed, remedy)
+    _say_remarks(plan, asking)
     if given.dry_run and not (Path(given.out) / sweeping.STORE).exists():
-        return _with_store(given, plan, name, title, studies.MemoryStore(), between)
+        return _with_store(given, plan, asking, studies.MemoryStore())
     with staging.growing(given.out, "--out") as folder:
-        return _with_store(given, plan, name, title, plan.store(folder), between)
+        return _with_store(given, plan, asking, plan.store(folder))
 
 
-def _with_store(
-    given: argparse.Namespace,
-    plan: sweeping.Plan,
-    name: str,
-    title: str,
-    store: Any,
-    between: studies.Between | None,
-) -> int:
+def _say_remarks(plan: sweeping.Plan, asking: Asking) -> None:
+    """Print what is unlikely to be meant, and what cannot be found, before work starts."""
+    speeds = {"run.speed": "--speeds"} if asking.name == "envelope" else {}
+    for doubt in plan.doubts:
+        say(f"warning: {speeds.get(doubt.field, doubt.field)} {doubt.text}")
+    trains = plan.trains or {"the train": plan.like.train}
+    bare = [name for name, train in trains.items() if isinstance(train, AxleTrain)]
+    if _UNLOADS in plan.asked.numbers and bare:
+        say(
+            f"warning: {_UNLOADS} is 0 for {errors.counted(bare, 4)}: bare axle loads do not "
+            "unload. Use a train of cars"
+        )
+
+
+def _with_store(given: argparse.Namespace, plan: sweeping.Plan, asking: Asking, store: Any) -> int:
     left = studies.remaining(plan.points, store)
     varied = " x ".join(f"{len(d.values)} {d.name}" for d in plan.dimensions)
     total, known = len(plan.points), _known(plan, store)
     try:
         seconds = _estimate(plan, left, store, given.dry_run)
         seconds /= 1 if given.cluster else given.workers
-        about = "about " * (between is not None)
-        said = f"{about}{total} crossings ({varied})" + f", {known} known already" * bool(known)
-        said += f"; {_bytes(plan) / 1e9:.2g} GB, about {_spoken(seconds)}"
+        least = "at least " * (asking.between is not None)
+        said = f"{least}{total} crossings ({varied})" + f", {known} known already" * bool(known)
+        said += ", and several times as many beside peaks" * bool(least)
+        said += f"; {_bytes(plan) / 1e9:.2g} GB, {least or 'about '}{_spoken(seconds)}"
         if given.dry_run or not given.quiet:
             tell(said)
         if seconds > 3600 * given.hours:
             remedy = f"Use fewer points, more workers, or --hours {np.ceil(seconds / 3600):g}"
             raise InputError(
-                "--hours", given.hours, f"it would take about {_spoken(seconds)}", remedy
+                "--hours",
+                given.hours,
+                f"it would take {least or 'about '}{_spoken(seconds)}",
+                remedy,
             )
         if given.dry_run:
             return 0
-        found = _computed(given, plan, store, between)
+        if not known and (Path(given.out) / f"{asking.name}.nc").exists():
+            say(
+                f"warning: {given.out} holds the results of other crossings; its {asking.name}.nc "
+                f"and {asking.name}.csv will be replaced"
+            )
+        found = _computed(given, plan, store, asking.between)
     except (KeyboardInterrupt, staging.Stopped) as stop:
         done = _known(plan, store)
         kept = f"{done} of {total} crossings are kept in {given.out}; the same command goes on"
@@ -241,12 +309,21 @@ def _with_store(
     except studies.WorkerDiedError as error:
         say(f"{error}. {_known(plan, store)} of {total} crossings are kept in {given.out}")
         return 1
-    _write(found, given.out, name)
+    _write(found, given.out, asking.name)
     failed = [text for text in found.message.values.ravel().tolist() if text]
     if not given.quiet:
-        tell(f"{title}: {_headline(found)}; written to {given.out}/{name}.nc and {name}.csv")
+        outputs = list(dict.fromkeys(output.quantity for output in plan.asked.outputs))
+        names = [*outputs, *plan.asked.numbers, *plan.asked.more]
+        for line in findings.largest(found, names, asking.speed_unit):
+            tell(f"{asking.title}: {line}")
+        for line in findings.at_the_ends(found, outputs, asking.speed_unit):
+            tell(line)
+        tell(f"written to {given.out}/{asking.name}.nc and {asking.name}.csv")
     if failed:
-        tell(f"{len(failed)} of {total} crossings have no numbers: {failed[0]} (see 'message')")
+        tell(
+            f"{len(failed)} of {found.message.size} crossings have no numbers: {failed[0]} "
+            "(see 'message')"
+        )
     return FAILED if failed else 0
 
 
@@ -336,25 +413,10 @@ def _write(found: xr.Dataset, out: str, name: str) -> None:
     folder = Path(out)
     parts = [folder / f".{name}.nc", folder / f".{name}.csv"]
     found.to_netcdf(parts[0])
-    studies.table(found).to_csv(parts[1], index=False, float_format="%.9g")
+    findings.spreadsheet(found).to_csv(parts[1], index=False, float_format="%.9g")
     with staging.undisturbed():
         for part in parts:
             part.replace(folder / part.name[1:])
-
-
-def _headline(found: xr.Dataset) -> str:
-    """Return where the first quantity is largest."""
-    name = next(iter(found.data_vars))
-    values = found[name].values
-    if not np.isfinite(values).any():
-        return "no numbers"
-    place = np.unravel_index(np.nanargmax(values), values.shape)
-    where = []
-    for dim, i in zip(found[name].dims, place, strict=True):
-        value = found[dim].values[i]
-        where.append(f"{dim} {value:g}" if found[dim].dtype.kind == "f" else str(value))
-    unit = found[name].attrs.get("units", "")
-    return f"{name} is largest, {values[place]:.4g} {unit}, at {', '.join(where)}"
 
 
 def _spoken(seconds: float) -> str:

@@ -7,6 +7,7 @@ import json
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +17,7 @@ import numpy as np
 
 from .. import errors, studies
 from ..decks import Deck
-from ..errors import InputError
+from ..errors import InputError, InputWarning, Remark
 from ..results import Crossing
 from ..studies import Asked, Dimension, Job, Point, Row
 from ..trains import AnyTrain, AxleTrain
@@ -82,6 +83,8 @@ class Plan:
     like : Case
         The first of its cases.
     title : str
+    doubts : tuple of Remark
+        What is unlikely to be meant, one of each key.
     """
 
     dimensions: tuple[Dimension, ...]
@@ -90,6 +93,7 @@ class Plan:
     trains: dict[str, AnyTrain]
     like: Case
     title: str
+    doubts: tuple[Remark, ...] = ()
 
     @property
     def deck(self) -> Deck:
@@ -110,6 +114,11 @@ class Plan:
         jobs = [point.task[2] for point in self.points if not point.refusal]
         quick = all(job.mixed or isinstance(job.train, AxleTrain) for job in jobs)
         return studies.CHUNK_OF_LOADS if quick else studies.CHUNK
+
+    def starting_speeds(self, between: studies.Between) -> np.ndarray:
+        """Return the speeds at which all trains are computed if they are chosen, m/s, at least."""
+        own = [studies.starting_speeds(self.deck, t, between) for t in self.trains.values()]
+        return np.unique(np.concatenate(own))
 
     def chosen(
         self, store: Any, between: studies.Between, chunk: int | None = None, **options: Any
@@ -205,6 +214,7 @@ def planned(
     cases = _Cases(base, ways, by_path)
     cases.check_each()
     found: list[Point] = []
+    refusal: InputError | None = None
     asked_by_deck: dict[int, Asked] = {}
     made_trains: dict[str, AnyTrain] = {}
     like: Case | None = None
@@ -224,6 +234,7 @@ def planned(
             asked = _asked(own, quantities, numbers, paths, points, asked_by_deck)
         except InputError as error:
             found.append(Point("", refusal=str(error)))
+            refusal = error if refusal is None else refusal
             continue
         like = own if like is None else like
         if named:
@@ -239,8 +250,8 @@ def planned(
         if mixture is not None:
             mixtures.setdefault((id(own.deck), mixture), []).append(len(found) - 1)
     _mix(found, mixtures.values())
-    if not asked_by_deck:
-        raise InputError("over", None, found[0].refusal)
+    if refusal is not None and not asked_by_deck:
+        raise refusal
     asked = next(iter(asked_by_deck.values()))
     places = [o.x for o in asked.outputs]
     for other in asked_by_deck.values():
@@ -248,7 +259,8 @@ def planned(
             allowed = "are not the same on each of the decks"
             raise InputError("points", None, allowed, "Name places that all decks have")
     title = " x ".join(f"{len(d.values)} {d.name}" for d in dimensions)
-    return Plan(tuple(dimensions), tuple(found), asked, made_trains, like, title)
+    doubts = cases.doubts()
+    return Plan(tuple(dimensions), tuple(found), asked, made_trains, like, title, doubts)
 
 
 def _mix(points: list[Point], groups: Iterable[list[int]]) -> None:
@@ -290,6 +302,24 @@ class _Cases:
         if place not in self._known:
             self._known[place] = current.replace(changes) if changes else current
         return self._known[place]
+
+    def doubts(self) -> tuple[Remark, ...]:
+        """Return what is unlikely to be meant, the first of each key.
+
+        Of the first point, and of those that differ from it in one value or in the train: all
+        combinations would take longer than they would tell.
+        """
+        first = [values[0] for values in self.by_path.values()]
+        places = [(way, first) for way in range(len(self.ways))]
+        for i, values in enumerate(self.by_path.values()):
+            places += [(0, [*first[:i], value, *first[i + 1 :]]) for value in values[1:]]
+        found: dict[str, Remark] = {}
+        for way, values in places:
+            with suppress(InputError):  # a point that cannot be run says so itself
+                for remark in self.at(way, values).doubts:
+                    if isinstance(remark, InputWarning):
+                        found.setdefault(remark.field, remark)
+        return tuple(found.values())
 
     def check_each(self) -> None:
         """Refuse a value that the case would refuse by itself, before any work starts."""

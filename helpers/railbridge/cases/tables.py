@@ -299,12 +299,19 @@ TRAIN = Annotated[
 
 # ---- deck
 
+
+class _Damping(Table):
+    """Damping of a deck."""
+
+    not_a_table = "Write { modal = 0.015 } for 1.5 % of critical in every mode"
+
+
 MODAL = table(
-    "Modal", "The same ratio for every mode.",
+    "Modal", "The same ratio for every mode.", base=_Damping,
     modal=key(number(**vars(RATIO)), "Share of critical of every mode.", required=True),
 )  # fmt: skip
 RAYLEIGH = table(
-    "Rayleigh", "One ratio at two frequencies.",
+    "Rayleigh", "One ratio at two frequencies.", base=_Damping,
     ratio=key(number(**vars(RATIO)), "Share of critical at both frequencies.", required=True),
     frequencies_hz=key(numbers(2, above=0.0, unit="Hz"), "The two frequencies, Hz.", required=True),
 )  # fmt: skip
@@ -544,7 +551,8 @@ SHIPPED = table(
     "A deck file; modes, damping and rail may replace its own.",
     unknown_key=(
         "cannot stand beside deck.file",
-        "Beside a file only modes, damping and rail may stand; they replace its own",
+        "Beside a file only modes, damping and rail may stand; they replace its own. To change "
+        "others, write the deck into the case: all keys of its file, in place of file",
     ),
     file=key(NAME, "A shipped deck (viaduct36), or a .toml file beside this one.", required=True),
     modes=key(number(least=1, whole=True), "How many modes, instead of the file's own number."),

@@ -52,11 +52,14 @@ class Table(BaseModel):
     unknown_key: ClassVar[tuple[str, str] | None] = None
     """What is said of a key that is not known, and the remedy; by default the nearest known one."""
 
+    not_a_table: ClassVar[str] = ""
+    """The remedy where something else than a table is given."""
+
     @model_validator(mode="before")
     @classmethod
     def _refuse_keys(cls, value: Any) -> Any:
         if not isinstance(value, Mapping) or not all(isinstance(k, str) for k in value):
-            raise InputError("", value, "must be a table of named values")
+            raise InputError("", value, "must be a table of named values", cls.not_a_table)
         known = [f.alias or name for name, f in cls.model_fields.items()]
         for given in value:
             if given not in known:

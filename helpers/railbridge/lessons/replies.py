@@ -17,7 +17,7 @@ __all__ = ["Reply", "Verdict", "UNANSWERED", "list_reply", "number_reply"]
 
 UNITS = (
     (2 * np.pi, "2 pi times off: is it rad/s where Hz is asked, or the other way round?"),
-    (3.6, "3.6 times off: is it km/h where m/s is asked, or the other way round?"),
+    (3.6, "3.6 times off: is a speed in km/h where m/s belongs, or the other way round?"),
     (9.81, "9.81 times off: is it a mass where a force is asked, or the other way round?"),
     (180 / np.pi, "57.3 times off: is it in degrees where radians are asked, or the other way?"),
     (np.sqrt(1e3), "the root of 1000 off: kN/m where N/m belongs, or t where kg belongs?"),

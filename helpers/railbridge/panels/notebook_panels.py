@@ -46,18 +46,19 @@ Stages = Mapping[int, Crossing]
 
 
 _SPEEDS = (5.0, 80.0)  # m/s, ends of the slider
+_LONGEST = 40.0  # m, end of the slider of wavelengths
 
 
-def _speed() -> Control:
+def _speed(ends: tuple[float, float] = _SPEEDS) -> Control:
     def in_km_h(v: float) -> str:
         return f"= {3.6 * v:.1f} km/h"
 
-    return Control("speed", "speed (m/s)", ("run.speed",), *_SPEEDS, 0.5, unit="m/s", aside=in_km_h)
+    return Control("speed", "speed (m/s)", ("run.speed",), *ends, 0.5, unit="m/s", aside=in_km_h)
 
 
-def _wavelength() -> Control:
+def _wavelength(longest: float = _LONGEST) -> Control:
     paths = ("track.vertical.wavelength", "track.lateral.wavelength")
-    return Control("wavelength", "wavelength (m)", paths, 3.0, 40.0, 0.1, unit="m")
+    return Control("wavelength", "wavelength (m)", paths, 3.0, longest, 0.1, unit="m")
 
 
 def _amplitude() -> Control:
@@ -491,6 +492,10 @@ def map_and_crossing(
     study = open_study("speed_wavelength") if study is None else study
     planar = {"train.vehicle": "xia2000_planar"} if case is None else {}
     alone = {**planar, **_ITERATED, "train.cars": 1, "run.loads": "wheels"}
+    # The dot reaches all of the map, in whole steps of the sliders.
+    fastest, longest = float(study.speed.max()), float(study.wavelength.max())
+    fastest = max(_SPEEDS[1], np.floor(2.0 * fastest) / 2.0)
+    longest = max(_LONGEST, np.floor(10.0 * longest) / 10.0)
 
     def draw(axes, case, stages, values):
         if not reuses_artists(axes["map"]):
@@ -516,7 +521,7 @@ def map_and_crossing(
     right = ["force", "force minus", "displacement"]
     return Panel(
         _starting_case(case, alone),
-        [_speed(), _wavelength()],
+        [_speed((_SPEEDS[0], fastest)), _wavelength(longest)],
         [["map", name] for name in right],
         draw,
         say,
