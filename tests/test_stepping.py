@@ -28,49 +28,53 @@ def vehicle(rider, damping=None):
     return Vehicle("rider", bodies, springs, 10.0)
 
 
-def run_of(amplitude, step, ratio=0.01, damping=None, rider=RIDER, **options):
+def run_of(amplitude, step, ratio=0.01, damping=None, rider=RIDER, depth=0.0, **options):
     deck = rb.Beam("beam", (LENGTH,), MASS, EI).deck(4, ratio)
     # Waves that begin without a step or a break, below the level of the track before.
     below = rb.Table([-1e3, 1e3], [-amplitude, -amplitude])
     track = rb.Track(vertical=[rb.Harmonic(amplitude, wavelength=1.5, phase=np.pi / 2), below])
     chosen = {"speed": SPEED, "time_step": step, "lead_in": 0.0, "tail": 0.1, "contact": "hertz"}
-    return rb.cross(rb.Train(vehicle(rider, damping)), deck, track, **(chosen | options))
+    dip = rb.Notch(((1, 1),), circumference=1e4, offset=0.0, depth=depth, length=1.5)
+    train = rb.Train(vehicle(rider, damping), notches=(dip,) if depth else ())
+    return rb.cross(train, deck, track, **(chosen | options))
 
 
 @pytest.mark.parametrize(
-    ("amplitude", "loss", "parts"),
+    ("depth", "loss", "parts"),
     [
-        pytest.param(2e-4, 0.0, False, id="pressed"),
-        pytest.param(1e-3, 0.0, True, id="parted"),
-        pytest.param(2e-4, 5e4, False, id="pressed, damped"),
-        pytest.param(1e-3, 5e4, True, id="parted, damped"),
+        pytest.param(2e-3, 0.0, False, id="pressed"),
+        pytest.param(5e-3, 0.0, True, id="parted"),
+        pytest.param(2e-3, 5e4, False, id="pressed, damped"),
+        pytest.param(6e-3, 5e4, True, id="parted, damped"),
     ],
 )
 @pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
-def test_hertzian_contact_is_that_of_the_differential_equations(amplitude, loss, parts):
+def test_hertzian_contact_is_that_of_the_differential_equations(depth, loss, parts):
+    """One dip of 1.5 m. A wheel that has flown lands ten times and more, each time a little late."""
     rider = replace(RIDER, loss=loss)
     times = np.arange(0.0, 0.5, 2.5e-4)
 
     def rail(x):
-        return amplitude * (np.cos(2 * np.pi * x / 1.5) - 1.0) if x >= 0.0 else 0.0
+        return -depth / 2 * (1.0 - np.cos(2 * np.pi * x / 1.5)) if 0.0 <= x <= 1.5 else 0.0
 
     def climb(x):
-        return -amplitude * 2 * np.pi / 1.5 * np.sin(2 * np.pi * x / 1.5) if x >= 0.0 else 0.0
+        slope = -np.pi * depth / 1.5 * np.sin(2 * np.pi * x / 1.5)
+        return slope if 0.0 <= x <= 1.5 else 0.0
 
     rails = rail, climb
     force, middle = crossing(rider, SPEED, LENGTH, EI, MASS, 0.01, 4, rails, times)
     errors = []
     for step in (2.5e-4, 1.25e-4, 6.25e-5):
-        run = run_of(amplitude, step, rider=rider)
+        run = run_of(0.0, step, rider=rider, depth=depth)
         every = round(2.5e-4 / step)
         ours = -run.wheel_forces[0, 1, ::every][: len(times)]
         moved = run.displacement(10.0, kept_only=True)["displacement_z"][::every][: len(times)]
         errors.append(np.sqrt(np.mean((ours - force) ** 2)) / force.std())
         assert np.max(np.abs(moved - middle)) < 40.0 * (step / 2e-2) ** 2 * np.max(np.abs(middle))
         assert run.parted.any() == parts
-    assert errors[-1] < 1.5e-3
+    assert errors[-1] < (0.04 if parts else 1e-3)
     # With the square of the step, as for contacts that hold.
-    assert errors[1] < errors[0] / 2.2 and errors[2] < errors[1] / 2.2
+    assert errors[1] < errors[0] / 3.0 and errors[2] < errors[1] / 3.0
     linear = crossing(rider, SPEED, LENGTH, EI, MASS, 0.01, 4, rails, times, unilateral=False)[0]
     assert np.max(np.abs(linear - force)) > 0.02 * force.max()  # the law itself matters here
 
@@ -80,8 +84,8 @@ def test_energy_is_what_the_pull_has_put_in():
     """Without dampers: energy changes by the work of the force that keeps the speed."""
     gains = []
     for step in (1e-4, 5e-5):
-        run = run_of(1e-3, step, ratio=0.0, damping=0.0)
-        energy, work = balance(run, 1e-3)
+        run = run_of(4e-3, step, ratio=0.0, damping=0.0)
+        energy, work = balance(run, 4e-3)
         assert run.parted.any() and np.ptp(energy) > 20.0
         gains.append(np.max(np.abs(energy - energy[0] - work)) / np.ptp(energy))
     assert gains[1] < 0.01 and gains[1] < gains[0] / 2.5, gains
