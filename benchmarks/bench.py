@@ -19,6 +19,10 @@ from scipy.integrate import solve_ivp
 
 import railbridge as rb
 from planar import opensees, problems
+from railbridge.coupling import prepare
+from railbridge.direct import has_compiler
+from railbridge.stepping import march, plan
+from railbridge.windows import in_windows
 
 PEAK = """
 import pathlib, resource, sys
@@ -166,6 +170,27 @@ def beside_opensees(unit):
         print("  OpenSeesPy cannot be loaded here")
 
 
+def wheelsets(unit):
+    """Print the ways to solve eight cars on wheelsets with mass, 1 ms, 20 modes."""
+    changes = {"train.vehicle": "xia2000_wheelsets", "run.loads": "wheels", "run.time_step": 1e-3}
+    case = rb.case("paper").replace({**changes, "run.interaction": "direct"})
+    coupling = prepare(case.train, case.deck, case.track, case.settings)
+    steps = plan(coupling)
+    numpy = best(march, steps, repeats=2)
+    print(
+        f"\neight cars on wheelsets, {steps.samples} samples: the loop in NumPy {numpy / unit:.2f}"
+    )
+    if has_compiler():
+        from railbridge import compiled
+
+        compiled.march(steps)
+        fast = best(compiled.march, steps)
+        times = f"the loop in NumPy takes {numpy / fast:.0f} times as long"
+        print(f"  compiled {fast / unit:.2f} ({fast:.3f} s): {times}")
+    print(f"  the whole crossing {best(solve, case, repeats=3) / unit:.2f}", end="")
+    print(f", in windows of time {best(in_windows, coupling, repeats=1) / unit:.2f}")
+
+
 def main():
     machine()
     paper = rb.case("paper").replace({"run.iterations": 4})
@@ -210,6 +235,7 @@ def main():
         f"the same by scipy.integrate.solve_ivp (RK45, 1e-4)       {plain / unit:.1f}   "
         f"{plain / converged:.0f} times the suite's"
     )
+    wheelsets(unit)
     beside_opensees(unit)
     took = best(lambda: dataclasses.replace(rb.deck("viaduct36").recovery.beam).modes, repeats=15)
     print(

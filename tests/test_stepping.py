@@ -50,7 +50,7 @@ def run_of(amplitude, step, ratio=0.01, damping=None, rider=RIDER, depth=0.0, **
 )
 @pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
 def test_hertzian_contact_is_that_of_the_differential_equations(depth, loss, parts):
-    """One dip of 1.5 m. A wheel that has flown lands ten times and more, each time a little late."""
+    """One dip of 1.5 m. A wheel that has flown lands ten times and more, each a little late."""
     rider = replace(RIDER, loss=loss)
     times = np.arange(0.0, 0.5, 2.5e-4)
 
