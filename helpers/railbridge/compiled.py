@@ -246,7 +246,8 @@ def _march(
     first, samples, onward, reach,
     tables, at, axles, load_tables, load_at, loads_of,
     of_cars, kind, windows, known, rail, pressed, states,
-    decay, drive, shown, loaded, felt, pressing, wheels, direct, given, counts, hertzian, found, more,
+    decay, drive, shown, loaded, felt, pressing, wheels, direct, given, counts, hertzian,
+    found, more,
 ):  # fmt: skip
     """Run the loop of `stepping.march`; return whether all contacts settled."""
     modes, cars = reach.shape[1], len(kind)
