@@ -556,9 +556,11 @@ def test_every_maker_of_decks_takes_a_rail(rail, tmp_path):
     ],
 )
 def test_a_rail_of_a_table_is_refused_by_its_key(rail, words):
-    case = {"deck": changed(rail=rail), "train": {"vehicle": "xia2000"}, "run": {"speed": 20.0}}
-    with pytest.raises(InputError, match=words):
-        rb.Case(case)
+    # Beside a file, too, which is not at fault.
+    for deck in (changed(rail=rail), {"file": "viaduct36", "rail": rail}):
+        case = {"deck": deck, "train": {"vehicle": "xia2000"}, "run": {"speed": 20.0}}
+        with pytest.raises(InputError, match=f"^{words}"):
+            rb.Case(case)
 
 
 def test_a_rail_too_wide_for_the_deck_is_refused_by_its_key():

@@ -227,6 +227,22 @@ def long_line(folder, elements):
 RAILS = [rb.Rail(spread=0.6), rb.Rail(bending_stiffness=1.28e7, foundation=1e8)]
 
 
+def test_step_time_of_the_abaqus_files_begins_with_the_record(tmp_path):
+    """What a rail brings onto the deck before t = 0 is not lost before the step's start."""
+    deck = rb.deck("viaduct36", rail=RAILS[1])
+    run = rb.cross(TRAIN, deck, TRACK, interaction="rigid", **OPTIONS)
+    loads = export_loads(run, tmp_path / "x.inp", AXIS, form="abaqus")
+    text = (tmp_path / "x.inp").read_text(encoding="ascii")
+    late = -loads.time[0]
+    assert f"** step time {late:.9g}: the first axle is at the first node" in text
+    block = re.search(r"NAME=RB_1_3\n((?:[^*]+\n)+)", text)[1]
+    pairs = np.array(", ".join(block.splitlines()).split(", "), dtype=float).reshape(-1, 2)
+    assert pairs[0, 0] == 0.0 and late > 0.5
+    back = np.interp(loads.time + late, pairs[:, 0], pairs[:, 1], left=0.0, right=0.0)
+    function = loads.component("force_z")[0]
+    assert back == pytest.approx(function, abs=1e-7 * np.abs(function).max())
+
+
 @pytest.mark.parametrize("rail", RAILS, ids=["sleepers", "bed"])
 @pytest.mark.parametrize("couples", [True, False])
 @pytest.mark.parametrize("line", [AXIS, PAIR], ids=["axis", "pair"])

@@ -317,6 +317,9 @@ def deck_of_case(content: Mapping[str, Any]) -> Deck:
             )
     with within("deck.file", {"deck": ""}):
         path, own = _own(t.file)
+    if t.has("rail"):
+        with within("deck.rail"):  # refused as the case's, not as the file's
+            Rail(**t.rail.given)
     replaced = {name: value for name, value in content.items() if name != "file"}
     if isinstance(own.get("modes"), dict) and "modes" in replaced:
         # A number of modes beside another program's modes means how many of them.

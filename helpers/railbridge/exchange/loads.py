@@ -274,7 +274,8 @@ def export_loads(
         function that is not zero. ``abaqus``: an include file with an ``*AMPLITUDE`` for every
         function in step time, and ``*CLOAD`` lines that use them; CalculiX reads the same. The
         amplitudes stand above the first ``*STEP``, the loads inside it: two files, ``NAME.inp`` and
-        ``NAME_loads.inp``.
+        ``NAME_loads.inp``. Where a rail makes the record begin before t = 0, step time begins with
+        it; the first lines say when the first axle comes.
     every : int
         Write every k-th instant only.
     instance : str
@@ -316,14 +317,16 @@ def _write_abaqus(loads: NodalLoads, path: Path, prefix: str) -> None:
     unit, (length, mass) = loads.of_model()[1], loads.line.units
     head = f"** railbridge: forces in {unit}, couples in {unit} {length}"
     head += f", for a model in {length}, {mass}, s\n"
-    head += "** step time 0: the first axle is at the first node\n"
+    # A step begins at 0, a record on a deck with a rail before the first axle is there.
+    late = max(0.0, -float(loads.time[0]))
+    head += f"** step time {late:.9g}: the first axle is at the first node\n"
     amplitudes, cloads = [head], [head]
     for label, component, function in loads.functions():
         if re.fullmatch(r"[!-~]+", prefix + label) is None or "," in prefix + label:
             allowed = "cannot name a node in an Abaqus file"
             raise InputError("line", prefix + label, allowed, "Use form = 'csv', or node numbers")
         name = f"RB_{re.sub('[^A-Za-z0-9]', '_', label)}_{component + 1}"
-        amplitudes.append(f"*AMPLITUDE, NAME={name}\n{_pairs(loads.time, function)}")
+        amplitudes.append(f"*AMPLITUDE, NAME={name}\n{_pairs(loads.time + late, function)}")
         cloads.append(f"*CLOAD, AMPLITUDE={name}\n{prefix}{label}, {component + 1}, 1.0\n")
     other = path.with_name(f"{path.stem}_loads{path.suffix}")
     for file, lines in ((path, amplitudes), (other, cloads)):

@@ -147,7 +147,10 @@ def convergence(run_or_dict: Crossing | Mapping[str, Crossing], ax: Axes | None 
     runs = _by_name(run_or_dict)
     last = max((len(run.changes) for _, run, _ in runs), default=0)
     if not last:
-        allowed = "has no iterations: the deck was loaded by rigid-deck forces"
+        allowed = (
+            "has no iterations: train and deck were solved together, or the deck was loaded by "
+        )
+        allowed += "rigid-deck forces"
         raise InputError("run", None, allowed, "Use interaction='iterate'")
     ax = axes_or_new(ax)
     if not reuses_artists(ax):
