@@ -298,6 +298,12 @@ def test_auto_takes_the_direct_solution_where_contacts_are_stiff(vehicle, option
         (rb.AxleTrain([0.0], [1e5]), {"contact": "hertz"}, "bare axle loads have no contacts"),
         (rb.Train(WHEELED), {"contact": "hertz", "interaction": "iterate"}, "^interaction = 'iter"),
         (rb.Train(WHEELED), {"contact": "hertz", "interaction": "rigid"}, "Use 'direct' or 'auto'"),
+        (
+            rb.Train(WHEELED),
+            {"contact": "hertz", "iterations": 4},
+            "iterations = 4: .*no passes|passes",
+        ),
+        (rb.Train(WHEELED), {"contact": "hertz", "relaxation": 0.5}, "^relaxation = 0.5"),
         (rb.Train(WHEELED), {"contact": "Hertz"}, "contact = 'Hertz'"),
         (rb.Train(WHEELED), {"loads": "condensed"}, "loads = 'condensed': .*feeds energy"),
     ],

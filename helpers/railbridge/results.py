@@ -262,6 +262,8 @@ class Crossing:
 
         The force of such a wheel is nothing, to the last digits of what springs and mass carry.
         """
+        if self.settings.contact != "hertz":
+            return frozen(np.zeros((len(self.train.wheels), len(self.time)), dtype=bool))
         static = np.array([[wheel.static_load] for wheel in self.train.wheels])
         return frozen(self.wheel_forces[:, 1] > -1e-6 * static)
 

@@ -140,8 +140,12 @@ class Options:
     def __post_init__(self) -> None:
         check_fields(self)
         if self.contact == "hertz" and self.interaction not in ("auto", "direct"):
-            allowed = "cannot find contacts that are not linear"
+            allowed = "goes with linear contacts only, and Hertz's law is not linear"
             raise InputError("interaction", self.interaction, allowed, "Use 'direct' or 'auto'")
+        for name in ("iterations", "relaxation"):
+            if self.contact == "hertz" and getattr(self, name) is not None:
+                allowed = "has no meaning with contact = 'hertz', which is solved without passes"
+                raise InputError(name, getattr(self, name), allowed, "Leave it out")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -44,7 +44,7 @@ def rows(table: type[Table]) -> list[str]:
     """Return the lines of a Markdown table: keys and their meaning, needed ones first marked."""
     lines = ["| key | meaning |", "|---|---|"]
     for name, f in table.model_fields.items():
-        if name in ("name", "source", "note"):
+        if name in ("name", "source", "note") and not f.is_required():
             continue
         said = (f.description or "").replace("|", "\\|")
         if f.is_required():
