@@ -11,7 +11,7 @@ from typing import get_type_hints
 from .coupling import Coupling, grows, iterate, prepare
 from .decks import Deck
 from .direct import solve_directly
-from .errors import Remark
+from .errors import InputError, Remark
 from .notices import remarks
 from .results import Crossing
 from .settings import Options, Settings, check
@@ -151,7 +151,11 @@ def compute(
     if settings.interaction == "rigid":
         return Crossing(train, deck, track, settings, (start,), (), None, 0, coupling)
     if settings.interaction == "direct":
-        found = solve_directly(coupling, track, progress)
+        try:
+            found = solve_directly(coupling, track, progress)
+        except ArithmeticError as error:
+            remedy = "Give a smaller one"
+            raise InputError("time_step", settings.time_step, f"{error}", remedy) from None
         passes = start, found.added
         return Crossing(
             train, deck, track, settings, passes, (), None, 1, found.coupling, {1: found.state}

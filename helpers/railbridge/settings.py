@@ -252,7 +252,9 @@ def _refuse_condensed(train: AnyTrain, asked: Options) -> None:
             "with wheels on stiff contacts feeds energy into the deck, since a wheel loads it "
         )
         allowed += "elsewhere than where it feels it"
-        remedy = "Use 'wheels' or 'bogies', or interaction = 'rigid'"
+        remedy = "Use 'wheels' or 'bogies'"
+        if asked.contact == "permanent":
+            remedy += ", or interaction = 'rigid'"
         raise InputError("loads", asked.loads, allowed, remedy)
 
 

@@ -86,7 +86,7 @@ def summarize(
             "speed": s.speed, "time_step": s.time_step, "samples": len(run.time),
             "duration": run.time[-1],
             "lead_in": s.lead_in, "track_offset": s.track_offset, "loads": s.loads,
-            "interaction": s.interaction, "rail": _rail(deck),
+            "interaction": s.interaction, "contact": s.contact, "rail": _rail(deck),
         },
         **_wheels(run),
         "points": [{"x": x, **_at_point(run, x)} for x in points],
