@@ -54,6 +54,10 @@ def displacement_of_the_dot(said, w, t):
 
 
 # Whether the summary says what the last line of the panel's code gives.
+def largest_acceleration(said, value):
+    return f"{value:.2f} m/s2" in said
+
+
 SAID = {
     "00_start_here": displacement_at_iteration,
     "02_irregularities": forcing_frequency,
@@ -62,6 +66,7 @@ SAID = {
     "05_deck_response": largest_displacement,
     "06_fixed_point_iteration": displacement_at_iteration,
     "07_speed_and_wavelength": displacement_of_the_dot,
+    "13_beyond_the_paper": largest_acceleration,
 }
 
 
