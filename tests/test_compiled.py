@@ -68,6 +68,19 @@ def test_a_deck_whose_ends_move_and_that_is_overdamped():
     assert apart(both(rb.Train(LIGHT, cars=2), TRACK, deck, track_offset=0.0)) < 1e-12
 
 
+def test_modes_that_move_in_several_components():
+    content = {
+        "length": 30.0, "bending_stiffness_vertical": 4e10, "bending_stiffness_lateral": 8e10,
+        "torsional_stiffness": 2e10, "polar_inertia": 3e4, "mass": 1e4, "modes": 9,
+        "damping": {"modal": 0.02}, "centroid_height": 0.8,
+        "bearing": [{"x": x, "z": -1.2, "fixed": "y z roll"} for x in (0.0, 30.0)],
+    }  # fmt: skip
+    deck = rb.deck_from_table("coupled", content)
+    moves = np.any(deck.shapes.coefficients != 0.0, axis=(0, 1))
+    assert moves.sum(axis=1).max() > 1
+    assert apart(both(rb.Train(CAR, cars=2), TRACK, deck)) < 1e-12
+
+
 def test_hertzian_contacts_that_part():
     train = rb.Train(rb.with_wheelsets(CAR, mass=1800.0, roll_inertia=900.0), cars=2)
     pair = both(train, SHORT, contact="hertz", speed=60.0, time_step=1e-3)

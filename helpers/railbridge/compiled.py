@@ -106,6 +106,7 @@ def march(plan: Plan) -> Marched:
         states[:, i, : len(start)] = start.real, start.imag
     tables, at = _joined(plan.tables)
     load_tables, load_at = _joined(plan.load_tables)
+    component, spread = _spread(tables, kinds.loaded)
     found = np.zeros((3, plan.samples, plan.reach.shape[1]))
     more = np.zeros((cars, longest, wheels) if hertzian else (1, 1, 1))
     settled = _march(
@@ -114,7 +115,8 @@ def march(plan: Plan) -> Marched:
         load_tables, load_at[plan.loads[:, 2]], plan.loads, plan.of_cars, kind, plan.windows,
         loads, rail, pressed, states,
         kinds.decay, kinds.drive, kinds.shown, kinds.loaded, kinds.felt, kinds.pressing,
-        kinds.wheels, kinds.direct, kinds.given, kinds.counts, hertzian, found, more,
+        kinds.wheels, kinds.direct, kinds.given, kinds.counts, component, spread,
+        hertzian, found, more,
     )  # fmt: skip
     if not settled:
         raise ArithmeticError("a contact force does not settle within a step")
@@ -130,6 +132,19 @@ def _joined(tables: tuple[np.ndarray, ...]) -> tuple[np.ndarray, np.ndarray]:
     """Return tables one behind the other, and where each begins."""
     begin = np.cumsum([0, *(len(table) for table in tables[:-1])])
     return np.ascontiguousarray(np.concatenate(tables)), begin
+
+
+def _spread(tables: np.ndarray, loaded: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the component in which each mode moves, and `_Kinds.loaded` by axle and mode.
+
+    Shape (2, kinds, rows, axles, modes); no axles where a mode moves in several components. Where
+    each has its own, the sum over three rows an axle is one over axles, a third of the work.
+    """
+    moves = np.any(tables != 0.0, axis=(0, 1))
+    component = np.argmax(moves, axis=0)
+    axles = loaded.shape[3] // 3 if np.all(moves.sum(axis=0) <= 1) else 0
+    rows = 3 * np.arange(axles)[:, None] + component
+    return component, np.ascontiguousarray(loaded[..., rows])
 
 
 def _kinds(cars: list[CarSteps]) -> _Kinds:
@@ -259,7 +274,7 @@ def _march(
     first, samples, onward, reach,
     tables, at, axles, load_tables, load_at, loads_of,
     of_cars, kind, windows, known, rail, pressed, states,
-    decay, drive, shown, loaded, felt, pressing, wheels, direct, given, counts,
+    decay, drive, shown, loaded, felt, pressing, wheels, direct, given, counts, component, spread,
     hertzian, found, more,
 ):  # fmt: skip
     """Run the loop of `stepping.march`; return whether all contacts settled."""
@@ -274,6 +289,8 @@ def _march(
     slopes = np.zeros((cars, places, modes))
     acting = np.zeros((cars, rows, modes))
     of_motion, of_rate = np.zeros((places, modes)), np.zeros((places, modes))
+    axles_alone = spread.shape[3]
+    own_motion, own_rate = np.zeros((axles_alone, modes)), np.zeros((axles_alone, modes))
     per = np.zeros((rows, modes))
     moved, moving, u = np.zeros(places), np.zeros(places), np.zeros(d)
     coupled, right = np.zeros((modes, modes)), np.zeros((modes, 1 + most))
@@ -366,6 +383,10 @@ def _march(
                     of_motion[i, m] = free * shapes[c, i, m] * reach[0, m]
                     of_rate[i, m] = shapes[c, i, m] * reach[1, m] + slopes[c, i, m] * reach[0, m]
                     of_rate[i, m] *= free
+            for i in range(axles_alone):
+                for m in range(modes):
+                    own_motion[i, m] = of_motion[3 * i + component[m], m]
+                    own_rate[i, m] = of_rate[3 * i + component[m], m]
             if hertzian:
                 for w in range(count):
                     column = columns + w
@@ -383,7 +404,11 @@ def _march(
             for r in range(rows):
                 for m in range(modes):
                     per[r, m] = 0.0
-                for i in range(places):
+                for i in range(axles_alone):
+                    for m in range(modes):
+                        per[r, m] += spread[0, n, r, i, m] * own_motion[i, m]
+                        per[r, m] += spread[1, n, r, i, m] * own_rate[i, m]
+                for i in range(0 if axles_alone else places):
                     by_motion, by_rate = loaded[0, n, r, i], loaded[1, n, r, i]
                     for m in range(modes):
                         per[r, m] += by_motion * of_motion[i, m] + by_rate * of_rate[i, m]
