@@ -55,6 +55,8 @@ SLIPS = [
     ("axle_pause", 450.0, "given in cm"),
     ("body_mass", 5.09, "given in t, or its thousands mark read as a decimal point"),
     ("body_mass", 50.99e6, "given in g"),
+    ("wheelset_mass", 180.0, "ten times too light"),
+    ("wheelset_mass", 18e3, "ten times too heavy"),
     ("car_load", 400.0, "masses given in t"),
     ("car_load", 2e8, "masses given in g"),
     ("half_gauge", 980.0, "given in mm"),
@@ -109,7 +111,7 @@ LENGTHS = (
 UNITS = {
     "m": LENGTHS, "m2": "area", "m4": "second_moment", "m/s": "speed", "Hz": "vehicle_frequency",
     "rad": "phase", "Pa": "youngs_modulus", "N": "axle_load car_load", "N/m": "bearing_shear",
-    "kg": "body_mass", "kg/m": "mass track_mass", "kg/m3": "density steel_density",
+    "kg": "body_mass wheelset_mass", "kg/m": "mass track_mass", "kg/m3": "density steel_density",
     "N m2": "rail_stiffness", "N/m2": "foundation",
     "": "damping_frequency damping_ratio live_sag shear_share slope",
 }  # fmt: skip

@@ -1,6 +1,7 @@
 """What must be known before a result is read."""
 
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -199,3 +200,18 @@ def test_wheelsets_do_not_make_a_settled_run_up_look_transient(contact):
             warnings.simplefilter("ignore")
             run = rb.cross(rb.Train(car), DECK, track, **options)
         assert any("transient" in text for text in said(run)) == told
+
+
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+def test_wheels_with_mass_are_told_of_the_break_at_the_ends_of_a_deck():
+    """Told is V theta sqrt(k m), which comes without a damper; a rail on a bed ends it."""
+    options = {"speed": 40.0, "lead_in": 0.0, "tail": 0.2}
+    run = rb.cross(rb.Train(WHEELED), DECK, **options)
+    (text,) = (t for t in said(run) if "meet a break" in t)
+    told = float(text.partition("up to about ")[2].partition(" kN")[0])
+    found = np.abs(run.wheel_forces[:, 1] + run.train.wheels[0].static_load).max() / 1e3
+    assert 0.6 * told < found < told
+    bed = rb.Rail(bending_stiffness=1.28e7, foundation=1e8)
+    railed = rb.cross(rb.Train(WHEELED), replace(DECK, rail=bed), **options)
+    assert not any("meet a break" in t for t in said(railed))
+    assert not any("meet a break" in t for t in said(rb.cross(rb.Train(CAR), DECK, **options)))

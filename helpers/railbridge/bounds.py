@@ -187,6 +187,10 @@ BOUNDS = {
         ((1e3, "given in t, or its thousands mark read as a decimal point"), (1e-3, "given in g")),
         (500.0, 1.2e5),
     ),
+    "wheelset_mass": Bound(
+        "mass of a wheelset", 250.0, 1e4, "kg", "light trams to driven axles with their motors",
+        ((10.0, "ten times too light"), (0.1, "ten times too heavy")), (600.0, 3e3),
+    ),
     "car_load": Bound(
         "weight of a car over its axles", 5e3, 1e6, "N",
         "a light trolley to axles of 40 t; 1e6 where one wheel stands for a car",

@@ -311,7 +311,7 @@ def _broken_track(run: Crossing) -> list[Remark]:
         return []
     text = (
         f"Wheels with mass meet a break of the track where the deck's ends turn, {1e3 * angle:.2g} "
-        f"mrad at most: it strikes each with up to about {worst[1] / 1e3:.2g} kN, which a real "
+        f"mrad at most: it strikes each with up to about {worst[1] / 1e3:.3g} kN, which a real "
         "rail softens. Try a rail on a bed, "
         "deck.rail = { bending_stiffness = 1.28e7, foundation = 1e8 }."
     )

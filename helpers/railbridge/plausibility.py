@@ -401,7 +401,9 @@ def _of_vehicle(vehicle: Vehicle) -> list[InputWarning]:
             return [
                 InputWarning(wrong.field, f"({vehicle.name}): mass of {body.name} {wrong.text}")
             ]
+    light = min((body.mass for body in vehicle.wheelsets), default=None)
     checks = [
+        ("mass of a wheelset", "wheelset_mass", light),
         ("weight over axles", "car_load", load or None),  # none without vertical freedoms
         ("smallest axle distance", "axle_gap", float(gaps.min()) if len(gaps) else None),
         ("largest axle distance", "axle_reach", float(gaps.max()) if len(gaps) else None),
