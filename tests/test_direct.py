@@ -1,6 +1,8 @@
 """Train and deck solved together: the limit of the fixed point, and the coupled differential
 equations."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from reference import one_planar_car
@@ -119,3 +121,16 @@ def test_bare_axles_are_the_same_solved_either_way():
     tables = {"train": {"axles": [0.0, 2.5], "loads": [1e5, 1e5]}, "track": {}}
     runs = [PAPER.replace({**tables, "run.interaction": i}).run() for i in ("direct", "rigid")]
     assert np.array_equal(mid_span(runs[0]), mid_span(runs[1]))
+
+
+def test_modes_that_loads_do_not_move_are_no_obstacle():
+    """As of another program's deck: its last mode does not touch the rails."""
+    deck = rb.Beam("beam", (20.0,), 8e3, 5e9).deck(3, 0.02)
+    shapes = replace(deck.shapes, coefficients=deck.shapes.coefficients.copy())
+    shapes.coefficients[:, :, -1] = 0.0
+    still = replace(deck, shapes=shapes)
+    train = rb.Train(rb.planar_car(rb.vehicle("xia2000")))
+    runs = [rb.cross(train, still, speed=30.0, interaction=i) for i in ("direct", "iterate")]
+    assert np.array_equal(runs[0].state.q[-1], np.zeros(len(runs[0].time)))
+    apart = np.abs(runs[0].wheel_forces - runs[1].wheel_forces).max()
+    assert apart < 1e-8 * train.wheels[0].static_load

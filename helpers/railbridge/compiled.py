@@ -94,7 +94,7 @@ def march(plan: Plan) -> Marched:
     rail = np.zeros((cars, longest, 2 * wheels) if hertzian else (1, 1, 1))
     pressed = np.zeros((cars, wheels, 6))
     states = np.zeros((2, cars, kinds.decay.shape[2]))
-    for i, (car, known, start) in enumerate(zip(plan.cars, plan.known, plan.starts, strict=True)):
+    for i, (car, known) in enumerate(zip(plan.cars, plan.known, strict=True)):
         acting = known
         if hertzian:
             u = plan.rail[i]
@@ -103,7 +103,6 @@ def march(plan: Plan) -> Marched:
             pressed[i, : len(u) // 2] = plan.pressed[i].T
         own = (car.loads @ acting).T
         loads[i, : len(own), : own.shape[1]] = own
-        states[:, i, : len(start)] = start.real, start.imag
     tables, at = _joined(plan.tables)
     load_tables, load_at = _joined(plan.load_tables)
     component, spread = _spread(tables, kinds.loaded)

@@ -89,6 +89,11 @@ class CarSteps:
     damping: np.ndarray
     loads: np.ndarray
 
+    @property
+    def at_rest(self) -> np.ndarray:
+        """Where it starts: s, all zero."""
+        return np.zeros(len(self.drive), self.drive.dtype)
+
 
 @dataclass(frozen=True, eq=False)
 class Plan:
@@ -112,9 +117,7 @@ class Plan:
     cars : tuple of CarSteps
         Of every car; cars of one kind share theirs.
     windows : ndarray of int, shape (cars, 2)
-        First sample and the one behind the last that a car is stepped.
-    starts : tuple of ndarray, shape (m,)
-        s of every car at the first of them.
+        First sample, at rest, and the one behind the last that a car is stepped.
     known : tuple of ndarray, shape (d, samples of the window)
         F_known.
     first, samples : int
@@ -138,7 +141,6 @@ class Plan:
     of_cars: np.ndarray
     cars: tuple[CarSteps, ...]
     windows: np.ndarray
-    starts: tuple[np.ndarray, ...]
     known: tuple[np.ndarray, ...]
     first: int
     samples: int
@@ -153,7 +155,7 @@ class Marched:
     Attributes
     ----------
     q, velocity, force : ndarray, shape (modes, samples)
-        The deck's, from t = 0 on.
+        The deck's, from its first sample on.
     more : tuple of ndarray, shape (wheels, samples of the window)
         p of every car, N; empty where the contact is permanent.
     """
@@ -199,21 +201,21 @@ def plan(coupling: Coupling, track: Track | None = None) -> Plan:
             for (_, u), (start, stop) in zip(inputs, windows, strict=True)
         )
         pressed = tuple(_pressed(c, coupling.settings.time_step) for c in cars)
-    starts = [np.zeros(len(car.drive), car.drive.dtype) for car in steps]
     onward, reach = _deck_steps(coupling)
     couples = coupling.cars[0].load_matrix.shape[1] == 5
     speed = coupling.settings.speed
-    tables = [np.stack([v, speed * s], axis=1) for v, s in _dense(coupling.axles)]
+    modes = coupling.deck.coordinates
+    tables = [np.stack([v, speed * s], axis=1) for v, s in _dense(coupling.axles, modes)]
     # A couple does work on the slope: M_z on v', and M_y on theta_y = -w'.
     load_tables = [
         np.concatenate([v, -s[:, 1:2], s[:, :1]], axis=1) if couples else v
-        for v, s in _dense(coupling.loads)
+        for v, s in _dense(coupling.loads, modes)
     ]
     return Plan(
         onward, reach, tuple(tables), tuple(load_tables),
         _placed(coupling.axles), _placed(coupling.loads),
         np.array([(c.axles[0], len(c.axles), c.loads[0], len(c.loads)) for c in cars]),
-        steps, np.array(windows), tuple(starts), tuple(known),
+        steps, np.array(windows), tuple(known),
         min(0, *(first for first, _ in windows)), samples, rail, pressed,
     )  # fmt: skip
 
@@ -262,10 +264,9 @@ def _deck_steps(coupling: Coupling) -> tuple[np.ndarray, np.ndarray]:
     return onward, reach
 
 
-def _dense(stations: Stations) -> list[tuple[np.ndarray, np.ndarray]]:
+def _dense(stations: Stations, modes: int) -> list[tuple[np.ndarray, np.ndarray]]:
     """Return shapes and slopes of every table, each of shape (samples, 3, modes)."""
     mode, component = stations.pairs
-    modes = int(mode.max(initial=-1)) + 1
     result = []
     for table in stations.tables:
         full = np.zeros((2, table[0].shape[1], 3, modes))
@@ -332,7 +333,7 @@ def march(plan: Plan, progress: Callable[[str], None] | None = None) -> Marched:
     """
     modes = plan.reach.shape[1]
     deck = np.zeros((3, modes, plan.samples))
-    states = [start.copy() for start in plan.starts]
+    states = [car.at_rest for car in plan.cars]
     more: tuple[np.ndarray, ...] = ()
     if plan.rail is not None:
         more = tuple(np.zeros((len(own) // 2, own.shape[1])) for own in plan.rail)

@@ -64,7 +64,7 @@ def in_windows(coupling: Coupling, progress: Callable[[str], None] | None = None
     """
     steps = plan(coupling)
     deck = np.zeros((3, steps.reach.shape[1], steps.samples))
-    states = [start.copy() for start in steps.starts]
+    states = [car.at_rest for car in steps.cars]
     free = _free(steps.onward, LONGEST)
     # A car whose modes nearly coincide goes from sample to sample only.
     able = all(car.decay.ndim == 1 for car in steps.cars)
