@@ -1,6 +1,5 @@
 """The largest response over the speed, a line a train."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -26,12 +25,6 @@ def study(trains=("A1", "A2"), **more):
         **more,
     }
     return xr.Dataset(variables, {"train": list(trains), "speed": SPEEDS, "x": [10.0, 20.0]})
-
-
-@pytest.fixture(autouse=True)
-def close():
-    yield
-    plt.close("all")
 
 
 def drawn(ax):

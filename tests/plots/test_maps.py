@@ -36,12 +36,6 @@ def study():
     return xr.Dataset(variables, coordinates, ATTRIBUTES)
 
 
-@pytest.fixture(autouse=True)
-def close():
-    yield
-    plt.close("all")
-
-
 def drawn(ax):
     return {line.get_gid(): line for line in ax.lines}
 

@@ -27,12 +27,6 @@ def run(case):
     return case.run()
 
 
-@pytest.fixture(autouse=True)
-def close():
-    yield
-    plt.close("all")
-
-
 @cache
 def box():
     return rb.Box(
