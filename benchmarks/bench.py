@@ -21,7 +21,8 @@ import railbridge as rb
 from planar import opensees, problems
 from railbridge.coupling import prepare
 from railbridge.direct import has_compiler
-from railbridge.stepping import march, plan
+from railbridge.plans import plan
+from railbridge.stepping import march
 from railbridge.windows import in_windows
 
 PEAK = """

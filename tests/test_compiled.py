@@ -11,8 +11,9 @@ import pytest
 
 import railbridge as rb
 from railbridge.coupling import prepare
+from railbridge.plans import plan
 from railbridge.settings import check
-from railbridge.stepping import march, plan
+from railbridge.stepping import march
 from railbridge.wheelsets import Wheelset, on_wheelsets
 
 compiled = pytest.importorskip("railbridge.compiled", reason="needs the extra `fast`")

@@ -14,7 +14,8 @@ import numpy as np
 from numba import njit
 
 from .errors import brief
-from .stepping import MOST, TOLERANCE, CarSteps, Marched, Plan
+from .plans import CarSteps, Plan
+from .stepping import MOST, TOLERANCE, Marched
 
 __all__ = ["march"]
 

@@ -17,7 +17,8 @@ import numpy as np
 
 from .coupling import CoupledCar, Coupling, DeckState
 from .errors import brief, frozen
-from .stepping import Plan, handed_on, plan, step
+from .plans import Plan, plan
+from .stepping import handed_on, step
 
 __all__ = ["Windows", "in_windows"]
 
