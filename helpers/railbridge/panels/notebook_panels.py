@@ -11,7 +11,6 @@ import numpy as np
 
 from .. import plots
 from ..cases.definition import Case
-from ..cases.definition import case as load_case
 from ..cases.opening import open_study
 from ..decks import Deck, rayleigh
 from ..errors import Remark
@@ -26,98 +25,40 @@ from ..tracks import Track
 from ..trains import AnyTrain, steady_forces
 from .control import Control
 from .panel import DPI, Panel
+from .shared import (
+    FREQUENCIES,
+    ITERATED,
+    LOADS,
+    LONGEST,
+    RIGID,
+    SPEED_GRID,
+    SPEEDS,
+    Values,
+    amplitude_control,
+    cars_control,
+    conditions_in_words,
+    forcing_frequency,
+    iteration_control,
+    loads_control,
+    name_of_start,
+    speed_control,
+    starting_case,
+    wavelength_control,
+)
 
 __all__ = [
     "deck_modes", "deck_response", "fixed_point", "irregularities", "map_and_crossing", "overview",
     "rigid_forces",
 ]  # fmt: skip
 
-ITERATIONS = 4
 ALMOST_ZERO = 0.01  # of a car's weight: below, a force is no measure for another
 _NOTHING = "the rigid-deck force is almost zero here, so a per cent figure says nothing"
-LOADS = {"condensed": "condensed loads", "bogies": "bogie loads", "wheels": "wheel loads"}
 
-Values = Mapping[str, Any]
 Stages = Mapping[int, Crossing]
 """A run as it stood at each iteration."""
 
 
-# ---- the controls, in their fixed order
-
-
-_SPEEDS = (5.0, 80.0)  # m/s, ends of the slider
-_LONGEST = 40.0  # m, end of the slider of wavelengths
-
-
-def _speed(ends: tuple[float, float] = _SPEEDS) -> Control:
-    def in_km_h(v: float) -> str:
-        return f"= {3.6 * v:.1f} km/h"
-
-    return Control("speed", "speed (m/s)", ("run.speed",), *ends, 0.5, unit="m/s", aside=in_km_h)
-
-
-def _wavelength(longest: float = _LONGEST) -> Control:
-    paths = ("track.vertical.wavelength", "track.lateral.wavelength")
-    return Control("wavelength", "wavelength (m)", paths, 3.0, longest, 0.1, unit="m")
-
-
-def _amplitude() -> Control:
-    paths = ("track.vertical.amplitude",)
-    return Control("amplitude", "amplitude (mm)", paths, 0.0, 0.010, 0.0005, 1e3, "m")
-
-
-_SPEED_GRID = np.linspace(*_SPEEDS, 151)  # m/s, half a metre a second apart
-_FREQUENCIES = (0.1, 40.0)  # Hz, around all that sliders of speed and wavelength can make
-
-
-def _cars() -> Control:
-    return Control("cars", "cars", ("train.cars",), 1, 16, 1)
-
-
-def _iteration() -> Control:
-    return Control("iteration", "iteration", (), 0, ITERATIONS, 1, start=ITERATIONS)
-
-
-def _loads() -> Control:
-    return Control("loads", "loads", ("run.loads",), choices=tuple(LOADS))
-
-
-# ---- the cases they start from
-
-_RIGID = {"run.interaction": "rigid", "run.iterations": None}
-_ITERATED = {"run.iterations": ITERATIONS}
-
-
-def _starting_case(case: Case | None, changes: Values) -> Case:
-    """Return the given case, or the paper's, with changes.
-
-    The paper's time step is left to be chosen, since it depends on speed and wavelength.
-    """
-    if case is None:
-        case, changes = load_case("paper"), {"run.time_step": None, **changes}
-    return case.replace(changes)
-
-
-def _start_name(case: Case | None) -> str:
-    """Return what the legend calls the case that a panel starts from."""
-    return "paper case" if case is None else "at the start"
-
-
 # ---- words and numbers that several panels share
-
-
-def _conditions_in_words(values: Values) -> str:
-    v, waves = values["speed"], f"{values['wavelength']:.1f} m waves"
-    if "amplitude" in values:
-        waves += f" of {1e3 * values['amplitude']:.1f} mm"
-    if "cars" in values:
-        waves += f", {values['cars']} car{'s' if values['cars'] > 1 else ''}"
-    return f"{v:.1f} m/s ({3.6 * v:.1f} km/h), {waves}: "
-
-
-def _forcing(values: Values) -> float:
-    """Return the forcing frequency, Hz."""
-    return values["speed"] / values["wavelength"]
 
 
 def _by_iteration(case: Case, progress: Callable[[str], None] | None = None) -> Stages:
@@ -137,7 +78,7 @@ def _sag_in_words(stages: Stages, case: Case, values: Values, how: str = "") -> 
     )
     sag = f"displacement at x = {x:g} m is {w:.2f} mm at iteration {i} of {last.iterations}"
     loads = LOADS[last.settings.loads] + how
-    return f"{_conditions_in_words(values)}{sag} ({loads}), {first:.2f} mm at iteration 0; "
+    return f"{conditions_in_words(values)}{sag} ({loads}), {first:.2f} mm at iteration 0; "
 
 
 def _bounce(run: Crossing) -> np.ndarray:
@@ -204,7 +145,7 @@ def _story_in_words(story: _Story, case: Case, values: Values) -> str:
         size = 100 * last.changes[i - 1]
         change += f"; the wheel forces changed by {size:.2g} % in this iteration"
     sag = _sag_in_words(stages, case, values)
-    return f"{sag}{force}{change}; forcing {_forcing(values):.3f} Hz."
+    return f"{sag}{force}{change}; forcing {forcing_frequency(values):.3f} Hz."
 
 
 def _draw_deviations(ax: Any, stages: Stages) -> None:
@@ -231,19 +172,19 @@ def irregularities(case: Case | None = None) -> Panel:
         plots.irregularity(case.track, -40.0, 50.0, ax=axes["track"], deck=case.deck)
         plots.wheels_on_track(case.train, case.track, case.deck.length / 2, axes["track"])
         plots.wheel_paths(case.train, case.track, values["speed"], ax=axes["paths"])
-        met = _SPEED_GRID, values["wavelength"], values["speed"], _FREQUENCIES
+        met = SPEED_GRID, values["wavelength"], values["speed"], FREQUENCIES
         frequency_met(case.train.vehicles[0], *met, axes["frequencies"])
 
     def say(case, result, values):
-        modes, forcing = case.train.vehicles[0].modes(), _forcing(values)
+        modes, forcing = case.train.vehicles[0].modes(), forcing_frequency(values)
         near = int(np.argmin(np.abs(modes.frequencies_hz - forcing)))
         name = mode_in_words(modes.names[near])
         nearest = f"nearest vehicle frequency {modes.frequencies_hz[near]:.3f} Hz ({name})"
-        return f"{_conditions_in_words(values)}forcing frequency {forcing:.3f} Hz, {nearest}."
+        return f"{conditions_in_words(values)}forcing frequency {forcing:.3f} Hz, {nearest}."
 
     return Panel(
-        _starting_case(case, _RIGID),
-        [_speed(), _wavelength(), _amplitude()],
+        starting_case(case, RIGID),
+        [speed_control(), wavelength_control(), amplitude_control()],
         [["track"], ["paths"], ["frequencies"]],
         draw,
         say,
@@ -255,7 +196,7 @@ def irregularities(case: Case | None = None) -> Panel:
         size=(9.0, 6.4),
         heights=[1.0, 1.0, 2.0],
         behind={"track": ["vertical"], "paths": ["1 1"], "frequencies": ["met"]},
-        start_name=_start_name(case),
+        start_name=name_of_start(case),
     )
 
 
@@ -277,7 +218,7 @@ def rigid_forces(case: Case | None = None) -> Panel:
         marks = {} if bounce is None else {"car bounce": bounce * values["wavelength"]}
         over_speed = _bounce_over_speed(run.train, case.track)
         now = values["speed"], steady["force_z"]
-        force_over_speed(_SPEED_GRID, over_speed, now, marks, axes["over_speed"])
+        force_over_speed(SPEED_GRID, over_speed, now, marks, axes["over_speed"])
         names = ("force_z", "moment_y")
         plots.car_forces(run, axes=[axes[n] for n in names], steady=steady, components=names)
         plots.wheel_force(run, ax=axes["wheel"])
@@ -286,14 +227,14 @@ def rigid_forces(case: Case | None = None) -> Panel:
         run, steady = result
         bounce, pitch = steady["force_z"] / 1e3, steady["moment_y"] / 1e3
         return (
-            f"{_conditions_in_words(values)}steady bounce {bounce:.1f} kN, pitch {pitch:.1f} kN m; "
-            f"forcing {_forcing(values):.3f} Hz; "
+            f"{conditions_in_words(values)}steady bounce {bounce:.1f} kN, pitch {pitch:.1f} kN m; "
+            f"forcing {forcing_frequency(values):.3f} Hz; "
             f"worst wheel unloading {float(run.wheel_unloading.max()):.3f}."
         )
 
     return Panel(
-        _starting_case(case, {**_RIGID, "train.cars": 1}),
-        [_speed(), _wavelength(), _amplitude()],
+        starting_case(case, {**RIGID, "train.cars": 1}),
+        [speed_control(), wavelength_control(), amplitude_control()],
         [["over_speed", "force_z"], ["wheel", "moment_y"]],
         draw,
         say,
@@ -309,7 +250,7 @@ def rigid_forces(case: Case | None = None) -> Panel:
             "moment_y": ["moment_y"],
             "wheel": ["force_z"],
         },
-        start_name=_start_name(case),
+        start_name=name_of_start(case),
     )
 
 
@@ -322,12 +263,12 @@ def _steady_components(train: AnyTrain, track: Track, speed: float) -> dict[str,
 @lru_cache(maxsize=2)
 def _bounce_over_speed(train: AnyTrain, track: Track) -> np.ndarray:
     """Return the steady bounce force of the first car at the speeds of the grid, N."""
-    return np.array([_steady_components(train, track, v)["force_z"] for v in _SPEED_GRID])
+    return np.array([_steady_components(train, track, v)["force_z"] for v in SPEED_GRID])
 
 
 def deck_modes(case: Case | None = None) -> Panel:
     """Panel of notebook 04: a mode of the deck, Rayleigh damping, and where the forcing stands."""
-    base = _starting_case(case, _RIGID)
+    base = starting_case(case, RIGID)
     if base.get("deck.damping") is None:
         base = base.replace({"deck.damping": {"ratio": 0.03, "frequencies_hz": [3.307, 16.30]}})
 
@@ -336,7 +277,7 @@ def deck_modes(case: Case | None = None) -> Panel:
         return rayleigh(damping["ratio"], damping["frequencies_hz"])
 
     def draw(axes, case, coefficients, values):
-        mode, forcing = values["mode"], {"forcing": _forcing(values)}
+        mode, forcing = values["mode"], {"forcing": forcing_frequency(values)}
         # Only modes have a ratio: the forcing is no mark of this curve.
         marks = {"the mode": case.deck.frequencies_hz[mode - 1]}
         plots.deck_mode(case.deck, mode, axes["mode"])
@@ -344,10 +285,10 @@ def deck_modes(case: Case | None = None) -> Panel:
         plots.damping(*coefficients, marks, axes["damping"])
 
     def say(case, coefficients, values):
-        i, deck, forcing = values["mode"] - 1, case.deck, _forcing(values)
+        i, deck, forcing = values["mode"] - 1, case.deck, forcing_frequency(values)
         frequency, ratio = deck.frequencies_hz[i], 100 * deck.damping_ratios[i]
         return (
-            f"{_conditions_in_words(values)}mode {i + 1}, {deck.mode_names[i]}, "
+            f"{conditions_in_words(values)}mode {i + 1}, {deck.mode_names[i]}, "
             f"{frequency:.3f} Hz, damping {ratio:.2f} %; "
             f"forcing {forcing:.3f} Hz."
         )
@@ -355,8 +296,8 @@ def deck_modes(case: Case | None = None) -> Panel:
     anchor, damping = "deck.damping.frequencies_hz", ("deck.damping.ratio",)
     most = min(12, len(base.deck.mode_names))
     controls = [
-        _speed(),
-        _wavelength(),
+        speed_control(),
+        wavelength_control(),
         Control("mode", "mode", (), 1, most, 1, start=1),
         Control("damping_ratio", "damping (%)", damping, 0.005, 0.1, 0.001, 100.0),
         Control("first_frequency", "at first (Hz)", (f"{anchor}.0",), 0.5, 20.0, 0.001, unit="Hz"),
@@ -376,7 +317,7 @@ def deck_modes(case: Case | None = None) -> Panel:
         size=(9.0, 6.8),
         heights=[1.0, 1.0, 1.3],
         behind={"damping": ["total"]},
-        start_name=_start_name(case),
+        start_name=name_of_start(case),
     )
 
 
@@ -390,21 +331,27 @@ def deck_response(case: Case | None = None) -> Panel:
         plots.displacement(run, case.points[0], axes["displacement"])
         plots.section_force(run, case.points[0], "moment_vertical", axes["moment"])
         in_step = _speeds_in_step(case.train, case.deck, values["wavelength"])
-        speeds_in_step(in_step, values["speed"], _SPEEDS, axes["in_step"])
+        speeds_in_step(in_step, values["speed"], SPEEDS, axes["in_step"])
 
     def say(case, run, values):
         x = case.points[0]
         w, w_time = run.displacement(x).extreme("displacement_z")
         m, m_time = run.section_forces(x).extreme("moment_vertical")
         return (
-            f"{_conditions_in_words(values)}largest at x = {x:g} m are "
+            f"{conditions_in_words(values)}largest at x = {x:g} m are "
             f"{1e3 * w:.2f} mm (t = {w_time:.2f} s) and {m / 1e3:.0f} kN m (t = {m_time:.2f} s), "
             f"{LOADS[run.settings.loads]} under rigid-deck forces."
         )
 
     return Panel(
-        _starting_case(case, _RIGID),
-        [_speed(), _wavelength(), _amplitude(), _cars(), _loads()],
+        starting_case(case, RIGID),
+        [
+            speed_control(),
+            wavelength_control(),
+            amplitude_control(),
+            cars_control(),
+            loads_control(),
+        ],
         [["displacement"], ["moment"], ["in_step"]],
         draw,
         say,
@@ -414,7 +361,7 @@ def deck_response(case: Case | None = None) -> Panel:
         heights=[1.0, 1.0, 0.35],
         rough=True,
         behind={"displacement": ["displacement_z "], "moment": ["moment_vertical "]},
-        start_name=_start_name(case),
+        start_name=name_of_start(case),
     )
 
 
@@ -446,8 +393,15 @@ def fixed_point(case: Case | None = None) -> Panel:
         return _iteration_in_words(stages, case, values)
 
     return Panel(
-        _starting_case(case, _ITERATED),
-        [_speed(), _wavelength(), _amplitude(), _cars(), _iteration(), _loads()],
+        starting_case(case, ITERATED),
+        [
+            speed_control(),
+            wavelength_control(),
+            amplitude_control(),
+            cars_control(),
+            iteration_control(),
+            loads_control(),
+        ],
         [
             ["force", "displacement"],
             ["force minus", "displacement minus"],
@@ -471,7 +425,7 @@ def fixed_point(case: Case | None = None) -> Panel:
             "changes": ["changes None"],
             "deviations": ["rigid None", "previous None"],
         },
-        start_name=_start_name(case),
+        start_name=name_of_start(case),
     )
 
 
@@ -491,11 +445,11 @@ def map_and_crossing(
     """
     study = open_study("speed_wavelength") if study is None else study
     planar = {"train.vehicle": "xia2000_planar"} if case is None else {}
-    alone = {**planar, **_ITERATED, "train.cars": 1, "run.loads": "wheels"}
+    alone = {**planar, **ITERATED, "train.cars": 1, "run.loads": "wheels"}
     # The dot reaches all of the map, in whole steps of the sliders.
     fastest, longest = float(study.speed.max()), float(study.wavelength.max())
-    fastest = max(_SPEEDS[1], np.floor(2.0 * fastest) / 2.0)
-    longest = max(_LONGEST, np.floor(10.0 * longest) / 10.0)
+    fastest = max(SPEEDS[1], np.floor(2.0 * fastest) / 2.0)
+    longest = max(LONGEST, np.floor(10.0 * longest) / 10.0)
 
     def draw(axes, case, stages, values):
         if not reuses_artists(axes["map"]):
@@ -511,8 +465,8 @@ def map_and_crossing(
             heaviest.append(-stages[i].wheel_forces[:, 1].min() / 1e3)
             sags.append(1e3 * stages[i].displacement(x).extreme("displacement_z")[0])
         return (
-            f"{_conditions_in_words(values)}forcing {_forcing(values):.3f} Hz; heaviest wheel or "
-            f"axle {heaviest[1]:.1f} kN, {heaviest[0]:.1f} kN on a rigid deck "
+            f"{conditions_in_words(values)}forcing {forcing_frequency(values):.3f} Hz; heaviest wheel "
+            f"or axle {heaviest[1]:.1f} kN, {heaviest[0]:.1f} kN on a rigid deck "
             f"({100 * (heaviest[1] / heaviest[0] - 1):+.1f} %); displacement at x = {x:g} m "
             f"{sags[1]:.2f} mm, {sags[0]:.2f} mm under rigid-deck forces "
             f"({100 * (sags[1] / sags[0] - 1):+.1f} %)."
@@ -520,8 +474,8 @@ def map_and_crossing(
 
     right = ["force", "force minus", "displacement"]
     return Panel(
-        _starting_case(case, alone),
-        [_speed((_SPEEDS[0], fastest)), _wavelength(longest)],
+        starting_case(case, alone),
+        [speed_control((SPEEDS[0], fastest)), wavelength_control(longest)],
         [["map", name] for name in right],
         draw,
         say,
@@ -537,7 +491,7 @@ def map_and_crossing(
             "force minus": ["rank 0"],
             "displacement": ["displacement_z "],
         },
-        start_name=_start_name(case),
+        start_name=name_of_start(case),
     )
 
 
@@ -552,7 +506,7 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
     dpi : float
         Dots per inch of the picture; more for a projector.
     """
-    base = _starting_case(case, _ITERATED)
+    base = starting_case(case, ITERATED)
     reach = int(np.ceil((base.deck.length + base.train.length) / 10)) * 10
     scales: dict[str, float] = {}  # of the sketch at the start: it never magnifies more
 
@@ -568,7 +522,9 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
         car_components(run, (axes["forces"], axes["moments"]), now=now)
         plots.displacement(run, x, axes["displacement"])
         mark_instant(axes["displacement"], now)
-        plots.spectrum(run, axes["spectrum"], mark={"forcing": _forcing(values)}, most=30.0)
+        plots.spectrum(
+            run, axes["spectrum"], mark={"forcing": forcing_frequency(values)}, most=30.0
+        )
         _draw_deviations(axes["deviations"], stages)
 
     def say(case, story, values):
@@ -577,7 +533,14 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
     place = Control("place", "first axle (m)", (), 0, reach, 1, start=min(100, reach), plays=True)
     return Panel(
         base,
-        [_speed(), _wavelength(), _amplitude(), _cars(), _iteration(), place],
+        [
+            speed_control(),
+            wavelength_control(),
+            amplitude_control(),
+            cars_control(),
+            iteration_control(),
+            place,
+        ],
         [
             ["train"] * 6,
             ["forces"] * 2 + ["moments"] * 2 + ["displacement"] * 2,
@@ -600,5 +563,5 @@ def overview(case: Case | None = None, dpi: float = DPI) -> Panel:
             "spectrum": ["spectrum  heads"],
             "deviations": ["rigid None", "previous None"],
         },
-        start_name=_start_name(case),
+        start_name=name_of_start(case),
     )

@@ -5,14 +5,14 @@ from __future__ import annotations
 from .. import plots
 from ..cases.definition import Case
 from .control import Control
-from .notebook_panels import (
-    _amplitude,
-    _conditions_in_words,
-    _forcing,
-    _speed,
-    _starting_case,
-)
 from .panel import Panel
+from .shared import (
+    amplitude_control,
+    conditions_in_words,
+    forcing_frequency,
+    speed_control,
+    starting_case,
+)
 
 __all__ = ["wheels_with_mass"]
 
@@ -53,7 +53,7 @@ def wheels_with_mass(case: Case | None = None) -> Panel:
         flown = 1e3 * run.settings.time_step * int(run.parted.sum(axis=1).max())
         off = f"; an axle is off the rail for {flown:.0f} ms in all" if flown else ""
         return (
-            f"{_conditions_in_words(values)}{_forcing(values):.1f} Hz; {values['contact']} "
+            f"{conditions_in_words(values)}{forcing_frequency(values):.1f} Hz; {values['contact']} "
             f"contact; axle forces from {least:.0f} to {force.max():.0f} kN, at rest "
             f"{run.train.wheels[0].static_load / 1e3:.0f} kN; largest acceleration at x = {x:g} m "
             f"{abs(largest):.2f} m/s2{off}."
@@ -61,11 +61,11 @@ def wheels_with_mass(case: Case | None = None) -> Panel:
 
     waves = ("track.vertical.wavelength",)
     return Panel(
-        _starting_case(case, changes),
+        starting_case(case, changes),
         [
-            _speed(),
+            speed_control(),
             Control("wavelength", "wavelength (m)", waves, 1.5, 40.0, 0.1, unit="m"),
-            _amplitude(),
+            amplitude_control(),
             Control("contact", "contact", ("run.contact",), choices=("permanent", "hertz")),
         ],
         [["force"], ["acceleration"]],
