@@ -465,8 +465,8 @@ def map_and_crossing(
             heaviest.append(-stages[i].wheel_forces[:, 1].min() / 1e3)
             sags.append(1e3 * stages[i].displacement(x).extreme("displacement_z")[0])
         return (
-            f"{conditions_in_words(values)}forcing {forcing_frequency(values):.3f} Hz; heaviest wheel "
-            f"or axle {heaviest[1]:.1f} kN, {heaviest[0]:.1f} kN on a rigid deck "
+            f"{conditions_in_words(values)}forcing {forcing_frequency(values):.3f} Hz; "
+            f"heaviest wheel or axle {heaviest[1]:.1f} kN, {heaviest[0]:.1f} kN on a rigid deck "
             f"({100 * (heaviest[1] / heaviest[0] - 1):+.1f} %); displacement at x = {x:g} m "
             f"{sags[1]:.2f} mm, {sags[0]:.2f} mm under rigid-deck forces "
             f"({100 * (sags[1] / sags[0] - 1):+.1f} %)."
