@@ -21,7 +21,7 @@ from ..plans import CarSteps, Plan
 
 __all__ = ["Asking", "Waves", "Wheels", "step_waves"]
 
-BLOCK = 128
+BLOCK = 64
 """Samples whose matrices are made at once."""
 
 
@@ -130,12 +130,11 @@ def step_waves(
         for i in cars
     }
     rolling = [_Rolling(car, lanes) for car in plan.cars]
-    onward = plan.onward[:, :, None]
-    reach = plan.reach[:, :, None]
-    state = np.zeros((BLOCK + 1, 3, modes, lanes))
+    onward, reach = _onward(plan), plan.reach[:, :, None]
+    asked = np.concatenate([asking.of_q, asking.of_velocity, asking.of_force], axis=1)
+    state = np.zeros((BLOCK + 1, 3 * modes, lanes))
     standing = np.zeros((BLOCK, outputs, lanes))
-    ahead = np.zeros((2, modes, lanes))
-    part = np.empty((modes, lanes))
+    ahead, total = np.zeros((2 * modes, lanes)), np.zeros((modes + outputs, lanes))
     for first in range(0, plan.samples, BLOCK):
         if progress is not None and first % (8 * BLOCK) == 0:
             progress(f"step {first} of {plan.samples}")
@@ -149,39 +148,29 @@ def step_waves(
         ]
         solved = _solved(block, modes, stop - first)
         for n in range(stop - first):
-            q, velocity, force = state[n]
-            for row, own in enumerate(ahead):
-                np.multiply(onward[2 * row], q, out=own)
-                own += np.multiply(onward[2 * row + 1], velocity, out=part)
-                own += np.multiply(onward[4 + row], force, out=part)
-            new = state[n + 1]
+            moved, force = np.split(state[n + 1], [2 * modes])
             on = [own for own in block if own.first <= n < own.stop]
-            total = np.zeros((modes + outputs, lanes))
+            np.matmul(onward, state[n], out=ahead)
+            total[:] = 0.0
             for own in on:
                 total += own.meet(rolling[own.car], n, ahead, waves, turns[n])
-            still = first + n == 0
-            np.matmul(solved[n], total[:modes], out=new[2])
+            np.matmul(solved[n], total[:modes], out=force)
+            still = first + n == 0  # the first sample moves nothing
             standing[n] = total[modes:]
             for own in on:
-                standing[n] += own.go_on(rolling[own.car], n, new[2], still)
+                standing[n] += own.go_on(rolling[own.car], n, force, still)
                 if own.car in wheels:
-                    kind = rolling[own.car]
                     k = first + n - plan.windows[own.car, 0]
-                    wheels[own.car].forces[:, k] = own.force(kind, n, new[2], still)
-            for own in on:
+                    found = own.force(rolling[own.car], n, force, still)
+                    wheels[own.car].forces[:, k] = found
                 rolling[own.car].step()
-            if still:
-                new[:2] = 0.0
-            else:
-                np.multiply(reach, new[2], out=new[:2])
-                new[:2] += ahead
-        some = state[1 : stop - first + 1]
-        own = slice(first, stop)
-        kept[:, own] = np.einsum("om,nml->onl", asking.of_q, some[:, 0], optimize=True)
-        kept[:, own] += np.einsum("om,nml->onl", asking.of_velocity, some[:, 1], optimize=True)
-        kept[:, own] += np.einsum("om,nml->onl", asking.of_force, some[:, 2], optimize=True)
-        residual[:, own] = np.moveaxis(standing[: stop - first], 0, 1)
-        residual[:, own] -= np.einsum("om,nml->onl", asking.residual, some[:, 2], optimize=True)
+            if not still:
+                np.multiply(reach, force, out=moved.reshape(2, modes, lanes))
+                moved += ahead
+        some, own = state[1 : stop - first + 1], slice(first, stop)
+        kept[:, own] = np.moveaxis(asked @ some, 0, 1)
+        shares = asking.residual @ some[:, 2 * modes :]
+        residual[:, own] = np.moveaxis(standing[: stop - first] - shares, 0, 1)
         state[0] = state[stop - first]
     return kept, residual, wheels
 
@@ -200,6 +189,12 @@ class _Rolling:
     def step(self) -> None:
         """Go on to the next sample."""
         self.both[: self.states] = self.onward @ self.both
+
+
+def _onward(plan: Plan) -> np.ndarray:
+    """Return what makes (q, q')* of q, q' and the modal forces of the sample before."""
+    e = [np.diag(own) for own in plan.onward]
+    return np.block([[e[0], e[1], e[4]], [e[2], e[3], e[5]]])
 
 
 def _real(car: CarSteps) -> tuple[np.ndarray, np.ndarray]:
@@ -245,7 +240,7 @@ class _Block:
         self, kind: _Rolling, n: int, ahead: np.ndarray, waves: Waves, turn: np.ndarray
     ) -> np.ndarray:
         """Return the forces on modes, and what is asked of them, without the deck's new forces."""
-        np.matmul(self.met[n - self.first], ahead.reshape(-1, ahead.shape[2]), out=kind.u)
+        np.matmul(self.met[n - self.first], ahead, out=kind.u)
         known = kind.known
         np.matmul(kind.shown, kind.both, out=known)
         known[:, :-1] += (waves.forces[self.car] * turn).view(float)
