@@ -89,11 +89,11 @@ def ramp_coefficients(
 
 
 def lagged(u: np.ndarray, lag: float, time_step: float) -> np.ndarray:
-    """Return y of ``lag y' + y = u`` from rest, for u that is linear between samples.
+    """Return y of ``lag y' + y = u`` from rest, for u that is linear between samples, shape (n,).
 
     Parameters
     ----------
-    u : ndarray, shape (..., n)
+    u : ndarray, shape (n,)
     lag, time_step : float
         s; without a lag u itself is returned.
     """
@@ -101,7 +101,7 @@ def lagged(u: np.ndarray, lag: float, time_step: float) -> np.ndarray:
         return u
     a, b0, b1 = (c.real[0] for c in ramp_coefficients(np.array([-1.0 / lag]), time_step))
     b0, b1 = b0 / lag, b1 / lag
-    return lfilter([b1, b0], [1.0, -a], u, zi=-b1 * u[..., :1])[0]
+    return lfilter([b1, b0], [1.0, -a], u, zi=-b1 * u[:1])[0]
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,6 @@ from ..coupling import Coupling, prepare
 from ..decks import Deck
 from ..errors import InputError, brief, frozen
 from ..plans import CarSteps, plan
-from ..response import lagged
 from ..settings import Settings, check, refuse_bytes
 from ..tracks import Harmonic, Track
 from ..trains import AnyTrain
@@ -160,16 +159,9 @@ def unit_waves(
         steps = replace(steps, cars=tuple(still[id(c)] for c in steps.cars))
     lanes = _lanes(coupling, (edges[:-1] + edges[1:]) / 2, components)
     asking = _asking(coupling, outputs)
-    found, residual, wheels = step_waves(
-        steps, lanes, asking, settings.time_step, kept, progress
-    )
+    found, wheels = step_waves(steps, lanes, asking, settings.time_step, kept, progress)
     histories = {}
-    for i, output in enumerate(outputs):
-        own = found[i]
-        if output.is_force or output.is_acceleration:
-            own += residual[i]
-        else:
-            own += lagged(residual[i].T, deck.internal_damping, settings.time_step).T
+    for output, own in zip(outputs, found, strict=True):
         name = f"{output.quantity} at {output.x:g} m"
         histories[name] = _history(OUTPUTS[output.quantity], coupling.time, own, components)
     for i, own in wheels.items():
@@ -233,9 +225,11 @@ def _refuse_size(
     wheels_of: Sequence[int],
 ) -> None:
     """Refuse what would not fit into memory."""
-    on_deck = (deck.length + 2 * deck.reach + train.length) / settings.passage.advance
-    wheels = sum(len(train.formation[i].wheels) for i in wheels_of)
-    numbers = 3.0 * outputs * settings.samples + min(on_deck, settings.samples) * wheels
+    numbers = 1.0 * outputs * settings.samples
+    for i in wheels_of:
+        car = train.formation[i]
+        reach = deck.length + 2 * deck.reach + car.axles[-1].delay - car.axles[0].delay
+        numbers += len(car.wheels) * reach / settings.passage.advance
     remedy = "Ask for fewer waves (a narrower band, a shorter period), outputs or cars"
     refuse_bytes("edges", None, 16.0 * waves * numbers, "so many waves", remedy)
 
@@ -311,13 +305,16 @@ def _asking(coupling: Coupling, outputs: Sequence[Output]) -> Asking:
     deck: Deck = coupling.deck
     omega = 2 * np.pi * deck.frequencies_hz
     modal = np.array([output.modal for output in outputs])
-    of_q, of_velocity, of_force, residual = modal.copy(), 0.0 * modal, 0.0 * modal, modal / omega**2
+    of_q, of_velocity, of_force = modal.copy(), 0.0 * modal, 0.0 * modal
+    residual, lags = modal / omega**2, np.zeros(len(outputs))
     for i, output in enumerate(outputs):
         if output.is_acceleration:
             of_q[i], of_force[i], residual[i] = -(omega**2) * modal[i], modal[i], 0.0
             of_velocity[i] = -2.0 * deck.damping_ratios * omega * modal[i]
         elif output.is_force:
             of_velocity[i] = deck.internal_damping * modal[i]
+        else:
+            lags[i] = deck.internal_damping
     lines = [None if o.line is None else deck.under_load(o.line) for o in outputs]
     rows = coupling.cars[0].load_matrix.shape[1]
     stations, tables = coupling.loads, []
@@ -336,4 +333,4 @@ def _asking(coupling: Coupling, outputs: Sequence[Output]) -> Asking:
                 slope = line.influence(x, 1)[:, 0]
                 table[:, 3, i], table[:, 4, i] = -slope[:, 1], slope[:, 0]
         tables.append(table)
-    return Asking(of_q, of_velocity, of_force, tuple(tables), residual)
+    return Asking(of_q, of_velocity, of_force, tuple(tables), residual, lags)

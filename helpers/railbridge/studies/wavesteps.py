@@ -16,8 +16,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.signal import lfilter
 
 from ..plans import CarSteps, Plan
+from ..response import ramp_coefficients
 
 __all__ = ["Asking", "Waves", "Wheels", "step_waves"]
 
@@ -63,6 +65,8 @@ class Asking:
         Influence lines below a load station, as `Plan.load_tables`.
     residual : ndarray, shape (outputs, modes)
         What of the modal forces is taken off the influence lines: the share of the modes kept.
+    lags : ndarray, shape (outputs,)
+        By which the rest comes later, s; see `decks.Deck.displaced`.
     """
 
     of_q: np.ndarray
@@ -70,6 +74,7 @@ class Asking:
     of_force: np.ndarray
     tables: tuple[np.ndarray, ...]
     residual: np.ndarray
+    lags: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +100,7 @@ def step_waves(
     time_step: float,
     cars: Sequence[int] = (),
     progress: Callable[[str], None] | None = None,
-) -> tuple[np.ndarray, np.ndarray, dict[int, Wheels]]:
+) -> tuple[np.ndarray, dict[int, Wheels]]:
     """Step all lanes together.
 
     Parameters
@@ -112,16 +117,13 @@ def step_waves(
 
     Returns
     -------
-    kept : ndarray, shape (outputs, samples, lanes)
-        What the modes kept give.
-    residual : ndarray, shape (outputs, samples, lanes)
-        What those left out would give if all loads stood still.
+    outputs : ndarray, shape (outputs, samples, lanes)
     wheels : dict of Wheels
         Of every car that was asked for.
     """
     modes, lanes = plan.reach.shape[1], waves.lanes
     outputs = len(asking.of_q)
-    kept, residual = np.empty((2, outputs, plan.samples, lanes))
+    found = np.empty((outputs, plan.samples, lanes))
     wheels = {
         i: Wheels(
             int(plan.windows[i, 0]),
@@ -135,6 +137,7 @@ def step_waves(
     state = np.zeros((BLOCK + 1, 3 * modes, lanes))
     standing = np.zeros((BLOCK, outputs, lanes))
     ahead, total = np.zeros((2 * modes, lanes)), np.zeros((modes + outputs, lanes))
+    lags = [_Lag(lag, time_step) for lag in asking.lags]
     for first in range(0, plan.samples, BLOCK):
         if progress is not None and first % (8 * BLOCK) == 0:
             progress(f"step {first} of {plan.samples}")
@@ -161,18 +164,39 @@ def step_waves(
                 standing[n] += own.go_on(rolling[own.car], n, force, still)
                 if own.car in wheels:
                     k = first + n - plan.windows[own.car, 0]
-                    found = own.force(rolling[own.car], n, force, still)
-                    wheels[own.car].forces[:, k] = found
+                    now = own.force(rolling[own.car], n, force, still)
+                    wheels[own.car].forces[:, k] = now
                 rolling[own.car].step()
             if not still:
                 np.multiply(reach, force, out=moved.reshape(2, modes, lanes))
                 moved += ahead
         some, own = state[1 : stop - first + 1], slice(first, stop)
-        kept[:, own] = np.moveaxis(asked @ some, 0, 1)
-        shares = asking.residual @ some[:, 2 * modes :]
-        residual[:, own] = np.moveaxis(standing[: stop - first] - shares, 0, 1)
+        found[:, own] = np.moveaxis(asked @ some, 0, 1)
+        residual = standing[: stop - first] - asking.residual @ some[:, 2 * modes :]
+        for output, lag in enumerate(lags):
+            found[output, own] += lag(residual[:, output])
         state[0] = state[stop - first]
-    return kept, residual, wheels
+    return found, wheels
+
+
+class _Lag:
+    """What follows ``lag y' + y = u``, a block at a time; see `response.lagged`."""
+
+    def __init__(self, lag: float, time_step: float) -> None:
+        self.filter = None
+        if lag > 0.0:
+            a, b0, b1 = (c.real[0] for c in ramp_coefficients(np.array([-1.0 / lag]), time_step))
+            self.filter = [b1 / lag, b0 / lag], [1.0, -a]
+        self.memory: np.ndarray | None = None
+
+    def __call__(self, u: np.ndarray) -> np.ndarray:
+        """Return y of the next samples, shape (n, lanes)."""
+        if self.filter is None:
+            return u
+        if self.memory is None:
+            self.memory = -self.filter[0][0] * u[:1]
+        y, self.memory = lfilter(*self.filter, u, axis=0, zi=self.memory)
+        return y
 
 
 class _Rolling:

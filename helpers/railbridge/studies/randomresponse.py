@@ -1,0 +1,219 @@
+r"""What is certain about an uncertain track: the exact variance of every answer, at every time.
+
+A random track is a sum of cosines of independent phases, each of the variance s_k its band of the
+spectrum holds. Train and deck answer each in a way that is known (`unitwaves`), so at every time
+
+    mean      y_0(t), that of level track,
+    variance  sum over components and waves of s_k (y_c,k(t)^2 + y_s,k(t)^2):
+
+the pseudo-excitation method (Lin 1992; of trains on bridges Zhang, Lin, Zhang, Zhao & Williams
+2010): instead of drawing tracks, one crossing on the cosine and one on the sine of every wave. All
+wheels meet the same wave, each at its own place, so nothing is left out of how they act together.
+Nothing is assumed but that train and deck are linear; that answers are Gaussian, too, is assumed by
+`RandomResponse.extreme` only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from .. import errors
+from ..decks import Deck
+from ..errors import InputError, brief
+from ..irregularities import RandomTrack, TrackSpectrum
+from ..settings import LEAD_IN_SECONDS
+from ..trains import AnyTrain
+from .ensembles import Ensemble, draw
+from .peakfactors import Extreme, extreme
+from .unitwaves import UnitWaves, unit_waves
+
+__all__ = ["RandomResponse", "random_response"]
+
+_LONGER = 1.1
+"""How much longer than the way of the train the track is before it repeats itself."""
+
+
+@dataclass(frozen=True, eq=False)
+class RandomResponse:
+    """A crossing of a random track: mean and standard deviation of every history.
+
+    Attributes
+    ----------
+    track : RandomTrack
+        Its seed is the first of an ensemble; the others count on.
+    waves : UnitWaves
+    """
+
+    __repr__ = brief
+
+    track: RandomTrack
+    waves: UnitWaves
+    _known: dict[str, tuple[np.ndarray, ...]] = field(default_factory=dict, repr=False)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the histories."""
+        return tuple(self.waves.histories)
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a history."""
+        return self.waves.history(name).unit
+
+    def time(self, name: str) -> np.ndarray:
+        """Return the times of a history, s."""
+        return self.waves.history(name).time
+
+    def mean(self, name: str) -> np.ndarray:
+        """Return the mean, that of level track, shape (n,)."""
+        return self.waves.history(name).level
+
+    def sigma(self, name: str, component: str | None = None) -> np.ndarray:
+        """Return the standard deviation at every time, shape (n,).
+
+        Parameters
+        ----------
+        name : str
+        component : str, optional
+            What one component of the track gives alone; all together if not given.
+        """
+        own = self.waves.history(name)
+        if component is not None:
+            errors.choice("component", component, self.waves.components)
+            place = self.waves.components.index(component)
+            return np.sqrt(own.waves[place] ** 2 @ self._powers[place])
+        return self._moments(name)[0]
+
+    def spectrum_at(self, name: str, time: float) -> np.ndarray:
+        """Return what every wave adds to the variance at a time, shape (components, waves).
+
+        Parameters
+        ----------
+        name : str
+        time : float
+            s; the nearest sample is taken.
+        """
+        own = self.waves.history(name)
+        k = int(np.argmin(np.abs(own.time - errors.number("time", time, unit="s"))))
+        parts = own.waves[:, k] ** 2 * self._powers
+        return parts.reshape(len(parts), -1, 2).sum(axis=2)
+
+    def extreme(self, name: str, side: str = "magnitude") -> Extreme:
+        """Return what the extreme of the crossing is in probability, for Gaussian answers.
+
+        Parameters
+        ----------
+        name : str
+        side : {"largest", "smallest", "magnitude"}
+        """
+        own = self.waves.history(name)
+        sigma, of_rate, together = self._moments(name)
+        rate = np.gradient(own.level, own.time)
+        return extreme(own.time, own.level, sigma, rate, of_rate, together, side=side)
+
+    def history(self, name: str, seed: int) -> np.ndarray:
+        """Return a history on the realisation of one seed, shape (n,)."""
+        own = self.waves.history(name)
+        shares = _shares(replace(self.track, seed=seed), self.waves)
+        return own.level + np.einsum("cnk,ck->n", own.waves, shares)
+
+    def on(self, spectrum: TrackSpectrum | str) -> RandomResponse:
+        """Return the same crossing on another spectrum: nothing has to be computed anew."""
+        track = replace(self.track, spectrum=spectrum, components=self.waves.components)
+        return RandomResponse(track, self.waves)
+
+    def ensemble(self, realisations: int = 200) -> Ensemble:
+        """Return the extremes of many realisations, of the track's seed and those after it."""
+        count = errors.integer("realisations", realisations, least=2, most=1_000_000)
+        seeds = self.track.seed + np.arange(count)
+        return draw(self.track, self.waves, seeds, _shares)
+
+    def to_frame(self, name: str):
+        """Return a pandas DataFrame: mean and standard deviation by time."""
+        import pandas as pd
+
+        own = self.waves.history(name)
+        columns = {f"mean ({own.unit})": own.level, f"sigma ({own.unit})": self.sigma(name)}
+        return pd.DataFrame(columns, index=pd.Index(own.time, name="t (s)"))
+
+    @cached_property
+    def _powers(self) -> np.ndarray:
+        """Variance of every lane, m2, shape (components, 2 waves)."""
+        return np.array([np.repeat(self.track.powers(c), 2) for c in self.waves.components])
+
+    def _moments(self, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the standard deviations of a history and of its rate, and their correlation."""
+        if name not in self._known:
+            own = self.waves.history(name)
+            square, of_rate, mixed = np.zeros((3, len(own.time)))
+            for waves, powers in zip(own.waves, self._powers, strict=True):
+                rates = np.gradient(waves, own.time, axis=0)
+                square += waves**2 @ powers
+                of_rate += rates**2 @ powers
+                mixed += (waves * rates) @ powers
+            sizes = np.sqrt(square * of_rate)
+            together = np.divide(mixed, sizes, out=np.zeros_like(mixed), where=sizes > 0.0)
+            self._known[name] = np.sqrt(square), np.sqrt(of_rate), np.clip(together, -1.0, 1.0)
+        return self._known[name]
+
+
+def _shares(track: RandomTrack, waves: UnitWaves) -> np.ndarray:
+    """Return how much of every lane a realisation has, m, shape (components, 2 waves)."""
+    sizes = [track.amplitudes(component) for component in waves.components]
+    return np.array([np.stack([a.real, -a.imag], axis=1).ravel() for a in sizes])
+
+
+def random_response(
+    train: AnyTrain,
+    deck: Deck,
+    track: RandomTrack | TrackSpectrum | str,
+    *,
+    quantities: Sequence[str] = ("displacement_z",),
+    points: Sequence[float] | None = None,
+    wheels_of: Sequence[int] = (),
+    progress: Callable[[str], None] | None = None,
+    **options,
+) -> RandomResponse:
+    """Compute a crossing of a random track, all its realisations at once.
+
+    Parameters
+    ----------
+    train : Train
+    deck : Deck
+    track : RandomTrack, or a spectrum or its name
+        A spectrum stands for its `RandomTrack`. A period that is not given is chosen, a tenth
+        longer than run-up, deck and train.
+    quantities : sequence of str
+        What is asked for at every point: displacements, accelerations, section forces.
+    points : sequence of float, optional
+        m along the deck; mid-span if not given.
+    wheels_of : sequence of int
+        Cars whose vertical wheel forces are asked for, too, while on the deck; from 1.
+    progress : function of one text, optional
+    **options
+        As for `cross`: speed, time_step, loads, track_offset, ...; interaction = "rigid" for the
+        deck under the forces of a rigid one.
+
+    Raises
+    ------
+    InputError
+        What is not linear, or would not fit into memory.
+
+    Notes
+    -----
+    Section forces that jump are seen at samples only, not on both sides of the jump.
+    """
+    if not isinstance(track, RandomTrack):
+        track = RandomTrack(track)
+    if track.period is None:
+        speed = errors.number("speed", options.get("speed"), above=0.0, unit="m/s")
+        way = LEAD_IN_SECONDS * speed + deck.length + 2 * deck.reach + train.length
+        track = replace(track, period=10.0 * np.ceil(_LONGER * way / 10.0))
+    waves = unit_waves(
+        train, deck, track.edges, components=track.components, quantities=quantities,
+        points=points, wheels_of=wheels_of, progress=progress, **options,
+    )  # fmt: skip
+    return RandomResponse(track, waves)
