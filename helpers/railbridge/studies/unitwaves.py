@@ -32,7 +32,7 @@ from ..tracks import Harmonic, Track
 from ..trains import AnyTrain
 from ..vehicles import Vehicle
 from .outputs import OUTPUTS, Output, outputs_at
-from .wavesteps import Asking, Waves, step_waves
+from .wavesteps import BLOCK, Asking, Waves, step_waves
 
 __all__ = ["COMPONENTS", "UnitHistory", "UnitWaves", "unit_waves", "wave_forces"]
 
@@ -225,7 +225,8 @@ def _refuse_size(
     wheels_of: Sequence[int],
 ) -> None:
     """Refuse what would not fit into memory."""
-    numbers = 1.0 * outputs * settings.samples
+    # Blocks of the deck's state, and of the forces of cars, beside what is kept.
+    numbers = 2.0 * BLOCK * (3 * deck.coordinates + outputs) + outputs * settings.samples
     for i in wheels_of:
         car = train.formation[i]
         reach = deck.length + 2 * deck.reach + car.axles[-1].delay - car.axles[0].delay

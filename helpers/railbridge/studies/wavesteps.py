@@ -21,7 +21,7 @@ from scipy.signal import lfilter
 from ..plans import CarSteps, Plan
 from ..response import ramp_coefficients
 
-__all__ = ["Asking", "Waves", "Wheels", "step_waves"]
+__all__ = ["BLOCK", "Asking", "Waves", "Wheels", "step_waves"]
 
 BLOCK = 64
 """Samples whose matrices are made at once."""

@@ -1,0 +1,155 @@
+"""Waves side by side against the crossing of each wave by itself, which knows nothing of lanes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import railbridge as rb
+from railbridge.studies import unitwaves
+from railbridge.studies.unitwaves import unit_waves, wave_forces
+
+SPEED = 20.0
+FAR = 40 * SPEED
+"""m of run-up after which nothing is left of how the track began."""
+EDGES = np.array([0.3, 0.6, 1.5])
+POINTS = (9.0, 18.0)
+QUANTITIES = ("displacement_z", "rotation_x", "acceleration_z", "moment_vertical", "displacement_y")
+
+
+def _rails(component, wavelength, phase):
+    def wave(size, more=0.0):
+        return rb.Harmonic(size, wavelength=wavelength, phase=phase + more)
+
+    whole, apart = wave(1e-3), rb.Rails(wave(0.5e-3), wave(0.5e-3, np.pi))
+    direction = "vertical" if component in ("vertical", "cross_level") else "lateral"
+    return rb.Track(**{direction: whole if component in ("vertical", "alignment") else apart})
+
+
+def _reference(run, name):
+    if name.startswith("wheel_force_z"):
+        car, wheel = (int(part.split()[-1]) for part in name.split(", "))
+        return run.wheel_force(car, wheel)["force_z"]
+    quantity, place = name.split(" at ")
+    x = float(place.removesuffix(" m"))
+    if quantity.startswith("acceleration"):
+        return run.acceleration(x)[quantity]
+    ask = run.section_forces if quantity.startswith("moment") else run.displacement
+    return ask(x)[quantity]
+
+
+def _hold(train, deck, components, quantities=QUANTITIES, limit=1e-7, **options):
+    waves = unit_waves(
+        train, deck, EDGES, components=components, quantities=quantities, points=POINTS,
+        wheels_of=(2,), speed=SPEED, **options,
+    )  # fmt: skip
+    if options.get("interaction") != "rigid":
+        options["interaction"] = "direct"
+    for c, component in enumerate(components):
+        for i, wavenumber in enumerate(waves.wavenumbers):
+            for part, phase in enumerate((np.pi / 2, 0.0)):
+                track = _rails(component, 2 * np.pi / wavenumber, phase)
+                run = rb.cross(train, deck, track, speed=SPEED, lead_in=FAR, **options)
+                for name, own in waves.histories.items():
+                    known = _reference(run, name)
+                    first = int(round((own.time[0] - run.time[0]) / run.settings.time_step))
+                    known = known[first : first + len(own.time)]
+                    found = own.level + 1e-3 * own.waves[c, :, 2 * i + part]
+                    size = np.abs(known - own.level).max()
+                    round_off = 1e-9 * np.abs(own.level).max() + 1e-15
+                    error = np.abs(found - known).max()
+                    assert error < limit * size + round_off, (component, name)
+
+
+@pytest.fixture(scope="module")
+def train():
+    return rb.Train(rb.vehicle("xia2000"), cars=2, car_spacing=22.5)
+
+
+@pytest.fixture(scope="module")
+def deck():
+    return rb.deck("viaduct36")
+
+
+def test_all_components_are_those_of_crossings_of_single_waves(train, deck):
+    components = tuple(unitwaves.COMPONENTS)
+    _hold(train, deck, components, track_offset=2.4, time_step=2e-3)
+
+
+@pytest.mark.parametrize("loads", ["bogies", "condensed"])
+def test_every_way_of_loading(train, deck, loads):
+    _hold(train, deck, ("vertical",), track_offset=2.4, time_step=2e-3, loads=loads)
+
+
+def test_a_rigid_deck_for_the_wheels(train, deck):
+    _hold(train, deck, ("vertical",), track_offset=2.4, time_step=2e-3, interaction="rigid")
+
+
+def test_wheelsets_under_a_rail(deck):
+    train = rb.Train(rb.vehicle("xia2000_wheelsets"), cars=2, car_spacing=22.5)
+    deck = replace(deck, rail=rb.Rail(bending_stiffness=1.28e7, foundation=1e8))
+    quantities = "displacement_z", "acceleration_z", "moment_vertical"
+    _hold(train, deck, ("vertical", "cross_level"), quantities, time_step=5e-4)
+
+
+def test_forces_on_a_rigid_deck_tend_to_the_transfer_function_as_the_step_falls():
+    car = rb.vehicle("xia2000")
+    wavelength, speed = 7.0, 30.0
+    track = rb.Track(vertical=rb.Harmonic(1.0, wavelength=wavelength, phase=np.pi / 2))
+    # The one is Re F exp(i W V t) of a cosine, the other Im of a sine with its phase.
+    known = rb.steady_forces(car, track, speed) / 1j
+    errors = []
+    for step in (2e-3, 1e-3):
+        waves = np.array([2 * np.pi / wavelength])
+        found = wave_forces(car, waves, "vertical", speed, step).reshape(known.shape)
+        errors.append(np.abs(found - known).max() / np.abs(known).max())
+    assert errors[1] < 1e-3
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.02)
+
+
+def test_level_track_is_one_of_the_lanes(train, deck):
+    waves = unit_waves(train, deck, [0.5, 0.6], speed=SPEED, track_offset=2.4)
+    run = rb.cross(train, deck, speed=SPEED, track_offset=2.4, interaction="direct")
+    known = run.displacement(18.0)["displacement_z"]
+    (own,) = waves.histories.values()
+    assert own.level == pytest.approx(known, abs=1e-9 * np.abs(known).max())
+
+
+@pytest.mark.parametrize(
+    ("options", "field"),
+    [
+        ({"contact": "hertz"}, "contact"),
+        ({"iterations": 3}, "iterations"),
+        ({"relaxation": 0.5}, "relaxation"),
+        ({"lead_in": 30.0}, "lead_in"),
+        ({"components": ()}, "components"),
+        ({"components": ("twist",)}, "components"),
+        ({"components": ("vertical", "vertical")}, "components"),
+        ({"wheels_of": (3,)}, "car"),
+        ({"edges": [0.5]}, "edges"),
+        ({"edges": [0.5, 0.4]}, "edges"),
+        ({"edges": [0.0, 0.4]}, "edges"),
+        ({"time_step": 0.05}, "time_step"),
+    ],
+)
+def test_what_cannot_be_is_refused(deck, options, field):
+    train = rb.Train(rb.vehicle("xia2000_wheelsets"), cars=2, car_spacing=22.5)
+    edges = options.pop("edges", [0.5, 2.0])
+    with pytest.raises(rb.InputError) as refusal:
+        unit_waves(train, deck, edges, speed=SPEED, **options)
+    assert refusal.value.field.startswith(field)
+
+
+def test_bare_loads_and_notches_are_refused(deck):
+    with pytest.raises(rb.InputError, match="do not feel the track"):
+        unit_waves(rb.AxleTrain([0.0], [1e5]), deck, [0.5, 0.6], speed=SPEED)
+    notch = rb.Notch(((1, 1),), 2.9, 0.0, 1e-3, 0.05)
+    train = rb.Train(rb.vehicle("xia2000"), notches=(notch,))
+    with pytest.raises(rb.InputError, match="no waves of the track"):
+        unit_waves(train, deck, [0.5, 0.6], speed=SPEED)
+
+
+def test_too_many_waves_are_refused_before_they_are_computed(train, deck):
+    edges = np.linspace(0.01, 2.0, 200_000)
+    with pytest.raises(rb.InputError, match="memory"):
+        unit_waves(train, deck, edges, speed=SPEED)
