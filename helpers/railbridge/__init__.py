@@ -43,6 +43,7 @@ _ROOMS = {
         "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
     ),
     "codes": ("LoadModel", "hslm_b", "load_model"),
+    "irregularities": ("TrackSpectrum", "spectrum"),
     "lessons": ("check",),
     "validation": ("compared",),
 }  # fmt: skip
@@ -52,6 +53,7 @@ _MODULES = {
     "codes": "codes",
     "exchange": "exchange",
     "identification": "validation.identification",
+    "irregularities": "irregularities",
     "lessons": "lessons",
     "panels": "panels",
     "paper": "validation.paper",
@@ -66,11 +68,12 @@ __all__ = [
     "AntiRollBar", "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "CONDENSED", "Case",
     "Crossing", "Deck", "FadeIn", "Harmonic", "History", "InputError", "InputWarning", "Level",
     "LoadModel", "NotConvergedError", "Notch", "Pads", "Passage", "Rail", "Rails", "ResultWarning",
-    "Spectrum", "Spring", "Table", "Track", "Train", "Vehicle", "amplitude_spectrum", "box",
-    "car_parameters", "case", "check", "compared", "cross", "data_root", "deck", "deck_from_table",
-    "deviation_percent", "hslm_b", "load_model", "open_study", "planar_car", "rayleigh",
-    "rayleigh_ratio", "remarks", "speed_envelope", "sprung_mass", "steady_forces", "summarize",
-    "sweep", "train", "train_list", "two_bogie_car", "varied_car", "vehicle", "with_wheelsets",
+    "Spectrum", "Spring", "Table", "Track", "TrackSpectrum", "Train", "Vehicle",
+    "amplitude_spectrum", "box", "car_parameters", "case", "check", "compared", "cross",
+    "data_root", "deck", "deck_from_table", "deviation_percent", "hslm_b", "load_model",
+    "open_study", "planar_car", "rayleigh", "rayleigh_ratio", "remarks", "spectrum",
+    "speed_envelope", "sprung_mass", "steady_forces", "summarize", "sweep", "train", "train_list",
+    "two_bogie_car", "varied_car", "vehicle", "with_wheelsets",
 ]  # fmt: skip
 
 

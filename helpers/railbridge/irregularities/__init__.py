@@ -1,7 +1,15 @@
-"""What the rails are off by: spectra as data, tracks drawn from them, measured records."""
+"""What real rails are off by: spectra as data, tracks drawn from them, measured records."""
 
 from .cosines import Cosines
-from .families import COMPONENTS, TrackSpectrum, spectrum
-from .realisations import RandomTrack
+from .formulas import COMPONENTS
+from .reading import spectrum, spectrum_names
+from .realisations import PERIOD, RandomTrack, phases
+from .records import Loss, RecordedRail, TrackRecord, record_of
+from .trackspectra import D1, D2, D3, GRADES, TrackSpectrum
+from .writing import export_track
 
-__all__ = ["COMPONENTS", "Cosines", "RandomTrack", "TrackSpectrum", "spectrum"]
+__all__ = [
+    "COMPONENTS", "Cosines", "D1", "D2", "D3", "GRADES", "Loss", "PERIOD", "RandomTrack",
+    "RecordedRail", "TrackRecord", "TrackSpectrum", "export_track", "phases", "record_of",
+    "spectrum", "spectrum_names",
+]  # fmt: skip
