@@ -27,6 +27,7 @@ from .errors import InputError, InputWarning, ResultWarning
 from .notices import remarks
 from .rails import Rail
 from .results import Crossing
+from .shapes import Dip, Joint, Weld
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .tracks import FadeIn, Harmonic, Level, Notch, Rails, Table, Track
 from .trains import CONDENSED, AxleTrain, Passage, Train, steady_forces
@@ -40,11 +41,12 @@ _ROOMS = {
     "cases": (
         "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table",
         "open_study", "planar_car", "speed_envelope", "sprung_mass", "summarize", "sweep",
-        "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
+        "track_record", "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
     ),
     "codes": ("LoadModel", "hslm_b", "load_model"),
-    "irregularities": ("TrackSpectrum", "spectrum"),
+    "irregularities": ("RandomTrack", "TrackRecord", "TrackSpectrum", "export_track", "spectrum"),
     "lessons": ("check",),
+    "studies": ("Ensemble", "RandomResponse", "random_response"),
     "validation": ("compared",),
 }  # fmt: skip
 """Names that a room offers here, too."""
@@ -66,14 +68,16 @@ _MODULES = {
 
 __all__ = [
     "AntiRollBar", "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh", "CONDENSED", "Case",
-    "Crossing", "Deck", "FadeIn", "Harmonic", "History", "InputError", "InputWarning", "Level",
-    "LoadModel", "NotConvergedError", "Notch", "Pads", "Passage", "Rail", "Rails", "ResultWarning",
-    "Spectrum", "Spring", "Table", "Track", "TrackSpectrum", "Train", "Vehicle",
+    "Crossing", "Deck", "Dip", "Ensemble", "FadeIn", "Harmonic", "History", "InputError",
+    "InputWarning", "Joint", "Level", "LoadModel", "NotConvergedError", "Notch", "Pads", "Passage",
+    "Rail", "Rails", "RandomResponse", "RandomTrack", "ResultWarning", "Spectrum", "Spring",
+    "Table", "Track", "TrackRecord", "TrackSpectrum", "Train", "Vehicle", "Weld",
     "amplitude_spectrum", "box", "car_parameters", "case", "check", "compared", "cross",
-    "data_root", "deck", "deck_from_table", "deviation_percent", "hslm_b", "load_model",
-    "open_study", "planar_car", "rayleigh", "rayleigh_ratio", "remarks", "spectrum",
-    "speed_envelope", "sprung_mass", "steady_forces", "summarize", "sweep", "train", "train_list",
-    "two_bogie_car", "varied_car", "vehicle", "with_wheelsets",
+    "data_root", "deck", "deck_from_table", "deviation_percent", "export_track", "hslm_b",
+    "load_model", "open_study", "planar_car", "random_response", "rayleigh", "rayleigh_ratio",
+    "remarks", "spectrum", "speed_envelope", "sprung_mass", "steady_forces", "summarize", "sweep",
+    "track_record", "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
+    "with_wheelsets",
 ]  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from . import errors
 from .decks import Deck
 from .errors import InputError, Range, brief, check_fields
 from .guideways import Guideway
-from .tracks import Track
+from .tracks import Rails, Track, extent_of, period_of
 from .trains import AnyTrain, AxleTrain, Car, Passage
 
 __all__ = [
@@ -224,6 +224,7 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
         "before": before,
     }
     settings = Settings(**(vars(asked) | chosen))
+    _refuse_short_rails(train, deck, track, settings)
     _refuse_size(train, deck, track, asked, settings)
     return settings
 
@@ -304,6 +305,35 @@ def _lead_in(asked: Options, step: float) -> float:
         remedy = "Leave it out for 7.5 s of travel; 0 means level track before the deck"
         raise InputError("lead_in", asked.lead_in, few, remedy)
     return asked.lead_in
+
+
+def _refuse_short_rails(train: AnyTrain, deck: Guideway, track: Track, s: Settings) -> None:
+    """Refuse rails that are not known wherever wheels go, and such that would repeat below them."""
+    if isinstance(train, AxleTrain):
+        return  # whose forces no rail changes
+    ahead = 0.0
+    if s.excitation == "car":  # the rail is met at the car's front
+        ahead = max(car.vehicle.front - car.wheels[0].x for car in train.formation)
+    needed = -s.lead_in, (s.samples - s.before - 1) * s.passage.advance + max(ahead, 0.0)
+    length = s.lead_in + deck.length + train.length + deck.reach
+    for direction in ("vertical", "lateral"):
+        apart = isinstance(getattr(track, direction), Rails)
+        for side in ("left", "right"):
+            field = f"track.{direction}" + f".{side}" * apart
+            rail = track.rail(direction, side)
+            (first, last), slack = extent_of(rail), 1e-9 * length
+            if needed[0] < first - slack or needed[1] > last + slack:
+                allowed = f"is known from x = {first:.6g} m to {last:.6g} m, and wheels need it "
+                allowed += f"from {needed[0]:.6g} m to {needed[1]:.6g} m"
+                allowed += " (run-up, deck, train and tail)"
+                remedy = "Use a shorter lead_in or tail, a longer record, or another origin of it"
+                raise InputError(field, None, allowed, remedy)
+            period = period_of(rail)
+            if length > period + slack:
+                allowed = f"repeats after {period:.6g} m, less than run-up, deck and train, "
+                allowed += f"{length:.6g} m"
+                remedy = "Make it with a longer period, or use a shorter lead_in"
+                raise InputError(field, None, allowed, remedy)
 
 
 def _shortest(train: AnyTrain, track: Track) -> float:

@@ -16,13 +16,21 @@ import numpy as np
 from . import errors
 from .errors import InputError, Range, brief, check_fields
 
-__all__ = ["FadeIn", "Harmonic", "Irregularity", "Level", "Notch", "Rails", "Table", "Track"]
+__all__ = [
+    "FadeIn", "Harmonic", "Irregularity", "Level", "Notch", "Rails", "Table", "Track", "extent_of",
+    "period_of",
+]  # fmt: skip
 
 _OTHER_SIGN = "Shift the phase by pi to change the sign"
 
 
 class Irregularity(Protocol):
-    """What every irregularity offers."""
+    """What every irregularity offers.
+
+    Two more attributes may be there. ``extent`` = (first, last), m: it is not known outside of
+    these places. ``period``, m: from there on it repeats although the real one would not, as sums
+    of waves do. A crossing that needs more is refused; see `extent_of` and `period_of`.
+    """
 
     def value(self, x: np.ndarray) -> np.ndarray:
         """Return r, m, at x, m."""
@@ -33,6 +41,30 @@ class Irregularity(Protocol):
     @property
     def shortest(self) -> float:
         """Shortest length, m, that the time step has to resolve; infinite if none."""
+
+
+def extent_of(irregularity: Irregularity) -> tuple[float, float]:
+    """Return the first and the last place, m, where an irregularity is known; without end if all.
+
+    Parameters
+    ----------
+    irregularity : Irregularity
+        With or without an attribute ``extent``.
+    """
+    given = getattr(irregularity, "extent", None)
+    return (-np.inf, np.inf) if given is None else given
+
+
+def period_of(irregularity: Irregularity) -> float:
+    """Return the length, m, after which an irregularity repeats by its making; infinite if never.
+
+    Parameters
+    ----------
+    irregularity : Irregularity
+        With or without an attribute ``period``. A wave has none: it repeats because it is one.
+    """
+    given = getattr(irregularity, "period", None)
+    return np.inf if given is None else given
 
 
 @dataclass(frozen=True)
@@ -154,6 +186,17 @@ class Sum:
     def shortest(self) -> float:
         """Shortest of the parts, m."""
         return min(p.shortest for p in self.parts)
+
+    @property
+    def extent(self) -> tuple[float, float]:
+        """First and last place, m, where all parts are known."""
+        first, last = zip(*map(extent_of, self.parts), strict=True)
+        return max(first), min(last)
+
+    @property
+    def period(self) -> float:
+        """Length, m, after which the first of the parts repeats."""
+        return min(map(period_of, self.parts))
 
     def value(self, x: np.ndarray) -> np.ndarray:
         """Return r, m."""
@@ -338,6 +381,16 @@ class FadeIn:
     def shortest(self) -> float:
         """Shortest length of the irregularity itself, m."""
         return self.inner.shortest
+
+    @property
+    def extent(self) -> tuple[float, float]:
+        """First and last place, m, where the irregularity itself is known."""
+        return extent_of(self.inner)
+
+    @property
+    def period(self) -> float:
+        """Length, m, after which the irregularity itself repeats."""
+        return period_of(self.inner)
 
     def _fade(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return where r is not yet untouched, and its factor there and the factor's slope."""

@@ -8,7 +8,7 @@ key, as in ``run.speed``.
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import InitVar, dataclass, field, fields
 from functools import cached_property
@@ -254,6 +254,8 @@ def _beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
     change(deck, "file")
     change(train, "vehicle")
     change(train, "file")
+    for record in _records(content.get("track")):
+        change(record, "file")
     if isinstance(deck, dict):
         content["deck"] = exchange.beside(deck, folder)
     if isinstance(train, dict) and isinstance(train.get("cars"), list):
@@ -261,3 +263,14 @@ def _beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
             change(car, "vehicle")
         train["cars"] = [opened(car) for car in train["cars"]]
     return content
+
+
+def _records(place: Any, deepest: int = _DEEPEST) -> Iterator[dict[str, Any]]:
+    """Give the tables of a track that name a file."""
+    parts = place if isinstance(place, list) else []
+    if isinstance(place, dict):
+        if place.get("kind") == "file":
+            yield place
+        parts = list(place.values())
+    for part in parts if deepest else ():
+        yield from _records(part, deepest - 1)

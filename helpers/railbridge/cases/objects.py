@@ -19,8 +19,10 @@ from ..boxes import Box, BoxMesh, Pads
 from ..decks import Deck, rayleigh
 from ..errors import InputError, Remark, ResultWarning, did_you_mean, plain, within
 from ..exchange import ModesTable
+from ..irregularities import RecordedRail, TrackRecord
 from ..plausibility import damping_frequencies
 from ..rails import Rail
+from ..shapes import Dip, Joint, Weld
 from ..tracks import Harmonic, Irregularity, Level, Notch, Rails, Track
 from ..tracks import Table as MeasuredTrack
 from ..trains import AnyTrain, AxleTrain, Train
@@ -30,6 +32,7 @@ from . import shelf, tables
 from .axletrains import train
 from .cars import CAR_PARAMETERS, OPTIONAL_PARAMETERS, two_bogie_car
 from .tabletypes import Table, checked
+from .trackfiles import track_record
 
 __all__ = [
     "box", "box_from_table", "car_parameters", "deck", "deck_from_table", "deck_of_case",
@@ -191,27 +194,63 @@ def _axle_train(t: Table) -> AnyTrain:
         return train(given, **options)
 
 
+@lru_cache(maxsize=16)
+def _cached_record(path: Path, options: tuple[tuple[str, Any], ...], *_stamp: int) -> TrackRecord:
+    """Read a measured track once; a file that has changed since is another one."""
+    return track_record(path, **dict(options))
+
+
 def track_of_case(t: Table | None) -> Track:
     """Return the track of a checked ``[track]``; perfect rails if there is none."""
     given = {} if t is None else t.given
-    return Track(**{name: _rails(f"track.{name}", value) for name, value in given.items()})
+    return Track(**{name: _rails(name, value) for name, value in given.items()})
 
 
-def _rails(path: str, t: Any) -> Any:
+def _rails(direction: str, t: Any) -> Any:
+    path = f"track.{direction}"
     if isinstance(t, tables.RAILS):
-        return Rails(**{side: _irregularity(f"{path}.{side}", v) for side, v in t.given.items()})
-    return _irregularity(path, t)
+        return Rails(
+            **{side: _irregularity(f"{path}.{side}", v, side) for side, v in t.given.items()}
+        )
+    left, right = (_irregularity(path, t, side) for side in ("left", "right"))
+    return Rails(left, right) if _differs(left, right) else left
 
 
-_IRREGULARITIES = {"none": Level, "harmonic": Harmonic, "table": MeasuredTrack}
+def _differs(left: Any, right: Any) -> bool:
+    """Whether a recorded rail makes the two rails differ."""
+    if isinstance(left, list):
+        return any(map(_differs, left, right))
+    return isinstance(left, RecordedRail) and left is not right
 
 
-def _irregularity(path: str, t: Any) -> Irregularity | list:
+_IRREGULARITIES = {
+    "none": Level, "harmonic": Harmonic, "table": MeasuredTrack, "dip": Dip, "joint": Joint,
+    "weld": Weld,
+}  # fmt: skip
+
+
+def _irregularity(path: str, t: Any, side: str) -> Irregularity | list:
     if isinstance(t, list):
-        return [_irregularity(f"{path}[{i}]", part) for i, part in enumerate(t, start=1)]
+        return [_irregularity(f"{path}[{i}]", part, side) for i, part in enumerate(t, start=1)]
     given = t.given
+    kind = given.pop("kind")
+    if kind == "file":
+        return _recorded(path, given, side)
     with within(path):
-        return _IRREGULARITIES[given.pop("kind")](**given)
+        return _IRREGULARITIES[kind](**given)
+
+
+def _recorded(path: str, given: dict[str, Any], side: str) -> Irregularity:
+    """Return one rail of a measured track, in the direction that the path says."""
+    with within(path, {"track": "file"}):
+        file = shelf.data_file("tracks", given.pop("file"), ".csv").resolve()
+        stamp = file.stat()
+        record = _cached_record(file, tuple(given.items()), stamp.st_mtime_ns, stamp.st_size)
+        found = record.lateral if path.startswith("track.lateral") else record.vertical
+        if found is None:
+            allowed = "holds no columns of this direction"
+            raise InputError("file", file.name, allowed, "See railbridge.track_record")
+    return getattr(found, side) if isinstance(found, Rails) else found
 
 
 # ---- decks

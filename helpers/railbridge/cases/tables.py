@@ -25,8 +25,11 @@ from ..decks import RATIO
 from ..errors import InputError, Range, choice, keys
 from ..exchange import ModesTable
 from ..guideways import Guideway
+from ..irregularities.records import BAND, LARGEST_DRIFT, LARGEST_STEP
+from ..irregularities.repairs import REPAIRS
 from ..rails import Rail
 from ..settings import Options
+from ..shapes import Dip, Joint, Weld
 from ..tracks import Harmonic, Notch
 from ..tracks import Table as MeasuredTrack
 from ..trains import AxleTrain, Train
@@ -89,7 +92,7 @@ NAME = anything({"type": "string", "minLength": 1})
 
 # ---- track
 
-_KINDS = ("none", "harmonic", "table")
+_KINDS = ("none", "harmonic", "table", "file", "dip", "joint", "weld")
 
 
 def _kind(name: str) -> dict[str, Any]:
@@ -108,10 +111,67 @@ HARMONIC = table(
 MEASURED = table(
     "Measured", "A measured irregularity.", **_kind("table"), **fields_of(MeasuredTrack)
 )
+
+
+def _band(value: Any) -> Any:
+    if isinstance(value, str):
+        return choice("", value, ("all",))
+    return tuple(errors.numbers("", value, count=2, above=0.0, unit="m").tolist())
+
+
+_WAVES = {
+    "anyOf": [
+        {"type": "array", "items": {"type": "number", "exclusiveMinimum": 0}, "minItems": 2,
+         "maxItems": 2},
+        {"enum": ["all"]},
+    ]
+}  # fmt: skip
+RECORDED = table(
+    "Recorded",
+    "What a recording car wrote into a CSV file: its heights below track.vertical, its places "
+    "sideways below track.lateral.",
+    **_kind("file"),
+    file=key(NAME, "A shipped record, or a .csv file beside this one.", required=True),
+    band=key(
+        anything(_WAVES, _band),
+        'Shortest and longest wavelength kept, m; or "all". What the band takes out is told.',
+        BAND,
+    ),
+    origin=key(number(unit="m"), "Place of the record at the bridge entrance, m.", 0.0),
+    repair=key(
+        _words(REPAIRS),
+        "What is mended, else refused: some of " + " ".join(REPAIRS) + "; what was done is told.",
+        (),
+    ),
+    largest_step=key(
+        number(above=0.0, unit="m"), "m; neighbours that differ more are a step.", LARGEST_STEP
+    ),
+    largest_drift=key(
+        number(above=0.0, unit="m"),
+        "m; a straight line that rises more from end to end is a drift.",
+        LARGEST_DRIFT,
+    ),
+)
+DIP = table("Dip", "A smooth hollow, once or several times.", **_kind("dip"), **fields_of(Dip))
+JOINT = table(
+    "Joint",
+    "A dipped joint, two half parabolas that meet in a cusp, once or several times.",
+    **_kind("joint"),
+    **fields_of(Joint),
+)
+WELD = table(
+    "Weld",
+    "A weld: a long hollow or hump with a short one in its middle, once or several times.",
+    **_kind("weld"),
+    **fields_of(Weld),
+)
 IRREGULARITY = switched(
     lambda value: by_value(value, "kind", _KINDS, otherwise="harmonic"),
-    {"none": LEVEL, "harmonic": HARMONIC, "table": MEASURED},
-)
+    {
+        "none": LEVEL, "harmonic": HARMONIC, "table": MEASURED, "file": RECORDED, "dip": DIP,
+        "joint": JOINT, "weld": WELD,
+    },
+)  # fmt: skip
 IRREGULARITIES = TypeAliasType(
     "IRREGULARITIES",
     Annotated[
@@ -600,7 +660,8 @@ TABLES = {
     "deck.rail": RAIL,
     "train": OF_ONE_KIND, "mixed train": MIXED, "train.cars": SEVERAL, "bare train": BARE,
     "named train": NAMED, "train file": FROM_FILE, "train.notch": NOTCH, "track": TRACK,
-    "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "none": LEVEL, "run": RUN,
+    "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "file": RECORDED,
+    "dip": DIP, "joint": JOINT, "weld": WELD, "none": LEVEL, "run": RUN,
     "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
     "wheelset": WHEELSET, "anti roll bar": ANTI_ROLL_BAR,
 }  # fmt: skip

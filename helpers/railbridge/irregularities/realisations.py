@@ -21,25 +21,36 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from .. import errors
-from ..errors import InputError, brief, frozen
+from ..errors import InputError, Remark, brief, frozen
 from ..tracks import Irregularity, Rails, Track
 from .cosines import Cosines
-from .families import COMPONENTS, TrackSpectrum, spectrum
+from .formulas import COMPONENTS
+from .reading import spectrum
+from .trackspectra import TrackSpectrum
 
-__all__ = ["PERIOD", "RandomTrack"]
+__all__ = ["PERIOD", "RandomTrack", "phases"]
 
 PERIOD = 2000.0
 """m after which a random track repeats itself, if nothing else is asked for."""
 MOST_WAVES = 20_000
 PAIRS = {"vertical": ("vertical", "cross_level"), "lateral": ("alignment", "gauge")}
 """What moves both rails alike in a direction, and what moves them apart."""
-_POINTS = 6
-"""Of Gauss's rule in every band."""
+
+
+def phases(seed: int, component: str, count: int) -> np.ndarray:
+    """Return the phases of the waves of one component, rad, shape (count,).
+
+    Every component has a stream of random numbers of its own, all from one seed.
+    """
+    place = COMPONENTS.index(component)
+    own = np.random.SeedSequence(seed).spawn(len(COMPONENTS))[place]
+    return 2 * np.pi * np.random.Generator(np.random.PCG64(own)).random(count)
 
 
 @dataclass(frozen=True)
@@ -102,7 +113,7 @@ class RandomTrack(Track):
 
     @property
     def length(self) -> float:
-        """m after which it repeats itself: a little more than was asked for."""
+        """M after which it repeats itself: a little more than was asked for."""
         return 2 * np.pi / float(self.edges[1] - self.edges[0])
 
     @cached_property
@@ -123,38 +134,47 @@ class RandomTrack(Track):
         """W of every wave, rad/m, shape (waves,)."""
         return (self.edges[1:] + self.edges[:-1]) / 2
 
-    def powers(self, component: str) -> np.ndarray:
-        """Return the variance that every band holds, m2, shape (waves,); zero where left out."""
-        errors.choice("component", component, COMPONENTS)
-        if component not in self.components:
-            return np.zeros(len(self.edges) - 1)
-        at, weights = np.polynomial.legendre.leggauss(_POINTS)
-        half = np.diff(self.edges)[:, None] / 2
-        density = self.spectrum.density(component, self.wavenumbers[:, None] + half * at, True)
-        return (half * density) @ weights
+    @cached_property
+    def powers(self) -> dict[str, np.ndarray]:
+        """The variance that every band holds of every component, m2, shape (waves,)."""
+        waves = 2 * np.pi / self.edges
+        return {
+            name: frozen(
+                np.array(
+                    [
+                        self.spectrum.sigma(name, (short, long), height=True) ** 2
+                        for long, short in pairwise(waves.tolist())
+                    ]
+                )
+            )
+            for name in self.components
+        }
+
+    @property
+    def remarks(self) -> tuple[Remark, ...]:
+        """What must be known of the spectrum."""
+        return self.spectrum.remarks
 
     def amplitudes(self, component: str) -> np.ndarray:
         """Return size and phase of every wave, m, complex: r = Re sum A exp(i W x)."""
-        place = list(COMPONENTS).index(errors.choice("component", component, COMPONENTS))
-        own = np.random.SeedSequence(self.seed).spawn(len(COMPONENTS))[place]
-        phases = 2 * np.pi * np.random.Generator(np.random.PCG64(own)).random(len(self.edges) - 1)
-        return np.sqrt(2.0 * self.powers(component)) * np.exp(1j * phases)
+        errors.choice("component", component, self.components)
+        own = phases(self.seed, component, len(self.edges) - 1)
+        return np.sqrt(2.0 * self.powers[component]) * np.exp(1j * own)
 
     def component(self, name: str) -> Cosines:
         """Return one component by itself: what both rails share, or their difference."""
-        return Cosines(self.wavenumbers, self.amplitudes(name), self.length)
+        return self._rail(self.amplitudes(name))
 
     def _of_rails(self, direction: str) -> Irregularity | Rails | None:
         both, apart = PAIRS[direction]
-        shared = self.amplitudes(both)
-        if apart not in self.components:
-            found = shared if both in self.components else None
-            return None if found is None else Cosines(self.wavenumbers, found, self.length)
-        half = self.amplitudes(apart) / 2
-        left, right = (
-            Cosines(self.wavenumbers, shared + part, self.length) for part in (half, -half)
-        )
-        return Rails(left, right)
+        shared = self.amplitudes(both) if both in self.components else 0.0 * self.wavenumbers
+        if apart in self.components:
+            half = self.amplitudes(apart) / 2
+            return Rails(*(self._rail(shared + part) for part in (half, -half)))
+        return self._rail(shared) if both in self.components else None
+
+    def _rail(self, amplitudes: np.ndarray) -> Cosines:
+        return Cosines(self.wavenumbers, amplitudes, self.length)
 
 
 def _components(own: TrackSpectrum, given: Any) -> tuple[str, ...]:

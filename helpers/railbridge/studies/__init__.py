@@ -6,23 +6,26 @@ Labelled arrays need the extra ``study`` (xarray); results on disk need zarr, cl
 from .chunks import WorkerDiedError
 from .datasets import Dimension, dataset, table
 from .engine import NUMBERS, Asked, Job, Row, asked_of, respond
+from .ensembles import Ensemble
 from .envelopes import QUANTITIES, checked_speeds, named_trains, signature, speed_envelope
 from .extras import needed
 from .fingerprints import fingerprint, print_of_crossing, print_of_deck
 from .lanes import WIDTH, advance_of, eligible
 from .mixtures import WORTH, mixture_key
 from .outputs import OUTPUTS, outputs_at
+from .randomresponse import RandomResponse, random_response
 from .refinement import Between, starting_speeds
 from .resonance import repeated_distance, residual_acceleration, resonance_speeds
 from .store import MemoryStore, Store
 from .study import CHUNK, CHUNK_OF_LOADS, Point, carry_out, chunked, remaining
+from .unitwaves import UnitWaves, unit_waves, wave_forces
 
 __all__ = [
-    "Asked", "Between", "CHUNK", "CHUNK_OF_LOADS", "Dimension", "Job", "MemoryStore",
-    "NUMBERS", "OUTPUTS", "Point", "QUANTITIES", "Row", "Store", "WIDTH", "WORTH",
-    "WorkerDiedError", "advance_of", "asked_of", "carry_out", "checked_speeds", "chunked",
-    "dataset", "eligible", "fingerprint", "mixture_key", "named_trains", "needed", "outputs_at",
-    "print_of_crossing", "print_of_deck", "remaining", "repeated_distance",
-    "residual_acceleration", "resonance_speeds", "respond", "signature", "speed_envelope",
-    "starting_speeds", "table",
+    "Asked", "Between", "CHUNK", "CHUNK_OF_LOADS", "Dimension", "Ensemble", "Job", "MemoryStore",
+    "NUMBERS", "OUTPUTS", "Point", "QUANTITIES", "RandomResponse", "Row", "Store", "UnitWaves",
+    "WIDTH", "WORTH", "WorkerDiedError", "advance_of", "asked_of", "carry_out", "checked_speeds",
+    "chunked", "dataset", "eligible", "fingerprint", "mixture_key", "named_trains", "needed",
+    "outputs_at", "print_of_crossing", "print_of_deck", "random_response", "remaining",
+    "repeated_distance", "residual_acceleration", "resonance_speeds", "respond", "signature",
+    "speed_envelope", "starting_speeds", "table", "unit_waves", "wave_forces",
 ]  # fmt: skip

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .. import errors
 from ..errors import InputError, brief
-from ..irregularities import RandomTrack
+from ..irregularities import RandomTrack, phases
 from .statistics import Statistics, describe
 from .unitwaves import UnitWaves
 
-__all__ = ["Ensemble", "draw"]
+__all__ = ["Ensemble", "draw", "shares_of"]
 
 _TOGETHER = 2**24
 """Numbers of histories at once."""
@@ -95,12 +95,20 @@ class Ensemble:
         return pd.DataFrame(columns, index=pd.Index(self.seeds, name="seed"))
 
 
-def draw(
-    track: RandomTrack,
-    waves: UnitWaves,
-    seeds: np.ndarray,
-    shares: Callable[[RandomTrack, UnitWaves], np.ndarray],
-) -> Ensemble:
+def shares_of(track: RandomTrack, waves: UnitWaves, seed: int) -> np.ndarray:
+    """Return how much of every lane the realisation of a seed has, m.
+
+    Shape (components, 2 waves): of A cos(W x + phi) the cosine has A cos(phi), the sine -A sin(phi).
+    """
+    result = []
+    for component in waves.components:
+        powers = track.powers[component]
+        turned = np.sqrt(2.0 * powers) * np.exp(-1j * phases(seed, component, len(powers)))
+        result.append(turned.view(float))
+    return np.array(result)
+
+
+def draw(track: RandomTrack, waves: UnitWaves, seeds: np.ndarray) -> Ensemble:
     """Return the extremes of realisations: products of matrices.
 
     Parameters
@@ -108,10 +116,8 @@ def draw(
     track : RandomTrack
     waves : UnitWaves
     seeds : ndarray of int, shape (realisations,)
-    shares : callable
-        From a realisation to how much of every lane it has.
     """
-    own = np.array([shares(replace(track, seed=int(s)), waves) for s in seeds])
+    own = np.array([shares_of(track, waves, int(seed)) for seed in seeds])
     own = own.reshape(len(seeds), -1).T
     low, high = {}, {}
     for name, history in waves.histories.items():

@@ -23,11 +23,11 @@ import numpy as np
 
 from .. import errors
 from ..decks import Deck
-from ..errors import InputError, brief
+from ..errors import brief
 from ..irregularities import RandomTrack, TrackSpectrum
 from ..settings import LEAD_IN_SECONDS
 from ..trains import AnyTrain
-from .ensembles import Ensemble, draw
+from .ensembles import Ensemble, draw, shares_of
 from .peakfactors import Extreme, extreme
 from .unitwaves import UnitWaves, unit_waves
 
@@ -117,7 +117,8 @@ class RandomResponse:
     def history(self, name: str, seed: int) -> np.ndarray:
         """Return a history on the realisation of one seed, shape (n,)."""
         own = self.waves.history(name)
-        shares = _shares(replace(self.track, seed=seed), self.waves)
+        errors.integer("seed", seed, least=0)
+        shares = shares_of(self.track, self.waves, seed)
         return own.level + np.einsum("cnk,ck->n", own.waves, shares)
 
     def on(self, spectrum: TrackSpectrum | str) -> RandomResponse:
@@ -129,7 +130,7 @@ class RandomResponse:
         """Return the extremes of many realisations, of the track's seed and those after it."""
         count = errors.integer("realisations", realisations, least=2, most=1_000_000)
         seeds = self.track.seed + np.arange(count)
-        return draw(self.track, self.waves, seeds, _shares)
+        return draw(self.track, self.waves, seeds)
 
     def to_frame(self, name: str):
         """Return a pandas DataFrame: mean and standard deviation by time."""
@@ -142,7 +143,7 @@ class RandomResponse:
     @cached_property
     def _powers(self) -> np.ndarray:
         """Variance of every lane, m2, shape (components, 2 waves)."""
-        return np.array([np.repeat(self.track.powers(c), 2) for c in self.waves.components])
+        return np.array([np.repeat(self.track.powers[c], 2) for c in self.waves.components])
 
     def _moments(self, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the standard deviations of a history and of its rate, and their correlation."""
@@ -158,12 +159,6 @@ class RandomResponse:
             together = np.divide(mixed, sizes, out=np.zeros_like(mixed), where=sizes > 0.0)
             self._known[name] = np.sqrt(square), np.sqrt(of_rate), np.clip(together, -1.0, 1.0)
         return self._known[name]
-
-
-def _shares(track: RandomTrack, waves: UnitWaves) -> np.ndarray:
-    """Return how much of every lane a realisation has, m, shape (components, 2 waves)."""
-    sizes = [track.amplitudes(component) for component in waves.components]
-    return np.array([np.stack([a.real, -a.imag], axis=1).ravel() for a in sizes])
 
 
 def random_response(

@@ -245,8 +245,14 @@ def _lanes(coupling: Coupling, wavenumbers: np.ndarray, components: Sequence[str
         if id(vehicle) not in known:
             known[id(vehicle)] = np.concatenate(
                 [
-                    wave_forces(vehicle, wavenumbers, name, settings.speed, settings.time_step,
-                                settings.excitation)
+                    wave_forces(
+                        vehicle,
+                        wavenumbers,
+                        name,
+                        settings.speed,
+                        settings.time_step,
+                        settings.excitation,
+                    )
                     for name in components
                 ],
                 axis=1,

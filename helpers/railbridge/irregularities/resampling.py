@@ -1,0 +1,87 @@
+"""Measured tracks on an even grid, and within a band of wavelengths."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ..errors import InputError
+
+__all__ = ["LEAST_PER_WAVE", "band_limited", "even"]
+
+LEAST_PER_WAVE = 4
+"""Samples in the shortest wave of the band; a cubic spline's slope is then within 4 %."""
+_ROLL_OFF = 0.5
+"""Octaves outside of the band over which the gain falls from one to zero."""
+_EVEN = 1e-6
+"""Share of the spacing by which places of an even grid may be off."""
+
+
+def even(place: np.ndarray, columns: dict[str, np.ndarray]) -> tuple[float, float, dict]:
+    """Return the first place and the spacing (m) of an even grid, and the columns on it.
+
+    Places that are even already are kept. Others are met by cubic splines through all samples, at
+    the median of their spacing.
+
+    Parameters
+    ----------
+    place : ndarray, shape (n,)
+        Ascending, m.
+    columns : dict of ndarray, shape (n,)
+
+    Raises
+    ------
+    InputError
+        Fewer than four samples.
+    """
+    if len(place) < 4:
+        raise InputError("rows", len(place), "must be at least four samples")
+    step = (place[-1] - place[0]) / (len(place) - 1)
+    grid = place[0] + step * np.arange(len(place))
+    if np.max(np.abs(place - grid)) <= _EVEN * step:
+        return float(place[0]), float(step), dict(columns)
+    step = float(np.median(np.diff(place)))
+    grid = place[0] + step * np.arange(int((place[-1] - place[0]) / step + _EVEN) + 1)
+    found = {name: CubicSpline(place, r)(grid) for name, r in columns.items()}
+    return float(place[0]), step, found
+
+
+def band_limited(r: np.ndarray, step: float, band: tuple[float, float]) -> np.ndarray:
+    """Return what is left of a record within a band of wavelengths, without a shift of phase.
+
+    The gain is real: one within the band, zero half an octave outside of it, a half-cosine over the
+    logarithm of the wavelength between. Mean and straight line are taken out first. Beyond its ends
+    the record is continued by its reflection in the end points, which fades out over two of the
+    longest waves; within one of them from an end the result depends on that guess.
+
+    Parameters
+    ----------
+    r : ndarray, shape (n,)
+        On an even grid.
+    step : float
+        Its spacing, m.
+    band : (float, float)
+        Shortest and longest wavelength, m.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+    """
+    along = np.arange(len(r)) - (len(r) - 1) / 2
+    r = r - np.polyval(np.polyfit(along, r, 1), along)
+    more = min(len(r) - 1, int(np.ceil(2 * band[1] / step)))
+    before = 2 * r[0] - r[more:0:-1]
+    after = 2 * r[-1] - r[-2 : -more - 2 : -1]
+    fade = 0.5 - 0.5 * np.cos(np.pi * (np.arange(more) + 0.5) / more)
+    whole = np.concatenate([before * fade, r, after * fade[::-1]])
+    count = 2 ** int(np.ceil(np.log2(2 * len(whole))))
+    per_metre = np.fft.rfftfreq(count, step)
+    kept = np.fft.rfft(whole, count) * _gain(per_metre, band)
+    return np.fft.irfft(kept, count)[more : more + len(r)]
+
+
+def _gain(per_metre: np.ndarray, band: tuple[float, float]) -> np.ndarray:
+    octave = np.log2(np.maximum(per_metre, 1e-12))
+    first, last = np.log2(1.0 / band[1]), np.log2(1.0 / band[0])
+    outside = np.maximum(np.maximum(first - octave, octave - last), 0.0)
+    return 0.5 + 0.5 * np.cos(np.pi * np.minimum(outside / _ROLL_OFF, 1.0))
