@@ -25,7 +25,7 @@ from ..decks import RATIO
 from ..errors import InputError, Range, choice, keys
 from ..exchange import ModesTable
 from ..guideways import Guideway
-from ..irregularities.records import BAND, LARGEST_DRIFT, LARGEST_STEP
+from ..irregularities.records import BAND, LARGEST_DRIFT, LARGEST_STEP, checked_band
 from ..irregularities.repairs import REPAIRS
 from ..rails import Rail
 from ..settings import Options
@@ -112,13 +112,6 @@ MEASURED = table(
     "Measured", "A measured irregularity.", **_kind("table"), **fields_of(MeasuredTrack)
 )
 
-
-def _band(value: Any) -> Any:
-    if isinstance(value, str):
-        return choice("", value, ("all",))
-    return tuple(errors.numbers("", value, count=2, above=0.0, unit="m").tolist())
-
-
 _WAVES = {
     "anyOf": [
         {"type": "array", "items": {"type": "number", "exclusiveMinimum": 0}, "minItems": 2,
@@ -133,15 +126,14 @@ RECORDED = table(
     **_kind("file"),
     file=key(NAME, "A shipped record, or a .csv file beside this one.", required=True),
     band=key(
-        anything(_WAVES, _band),
+        anything(_WAVES, lambda value: checked_band("", value)),
         'Shortest and longest wavelength kept, m; or "all". What the band takes out is told.',
-        BAND,
+        list(BAND),
     ),
     origin=key(number(unit="m"), "Place of the record at the bridge entrance, m.", 0.0),
     repair=key(
         _words(REPAIRS),
         "What is mended, else refused: some of " + " ".join(REPAIRS) + "; what was done is told.",
-        (),
     ),
     largest_step=key(
         number(above=0.0, unit="m"), "m; neighbours that differ more are a step.", LARGEST_STEP
