@@ -193,7 +193,7 @@ def test_a_power_law_needs_no_breaks(tmp_path):
         ('unit = "m2 rad/m"', 'unit = "m2"', "vertical.A.unit = 'm2': must be one of m2 rad/m"),
         ("[vertical]", "[vertcal]", "vertcal: unknown key. Did you mean 'vertical'"),
         ("[constants]", "base = 0.0\n[constants]", "base = 0.0: .*above 0 m"),
-        ("[constants]", "constants = 5\n[more]", "more: unknown key|constants"),
+        ("[constants]", "constants = 5\n[more]", "more: unknown key"),
         ("[vertical]", "[[vertical]]", "vertical = .*must be a table"),
         ("family", "= family", "is not a valid TOML file"),
     ],

@@ -18,8 +18,12 @@ from .formulas import COMPONENTS, Formula, power_integral
 
 __all__ = ["D1", "D2", "D3", "GRADES", "FormulaDensity", "Scaling", "TableDensity", "TrackSpectrum"]
 
-D1, D2, D3 = (3.0, 25.0), (25.0, 70.0), (70.0, 150.0)
-"""Bands of wavelength of EN 13848-1, m. For cross-level and fast lines D3 may end at 200 m."""
+D1 = (3.0, 25.0)
+"""Shortest band of wavelength of EN 13848, m."""
+D2 = (25.0, 70.0)
+"""Middle band of wavelength of EN 13848, m."""
+D3 = (70.0, 150.0)
+"""Longest band of wavelength of EN 13848, m; it may end at 200 m."""
 
 GRADES = {
     "two": "two or more independent sources agree",
