@@ -1,5 +1,5 @@
-"""Write the tables of docs/case.md and docs/spectra.md that come from types and data; `--check` only
-says whether they are right."""
+"""Write the tables of docs/case.md and docs/spectra.md, which come from types and data; `--check`
+only says whether they are right."""
 
 import sys
 from pathlib import Path
