@@ -23,15 +23,16 @@ If crossings come independently of each other, and only out of processes that ar
 
 The divisor is 1 for the high levels of long records. Without it low levels count processes that
 have long been above, and the mean extreme of a wide band over a short time comes out too small: for
-1 to 3 crossings of the mean by 0.2 s to 0.45 s, with it by 0.1 s. No process stays below longer than it is
-below at one time, so P is never more than the smallest P(X(t) < b) either; that also serves where
-s is zero.
+1 to 3 crossings of the mean by 0.2 to 0.45 standard deviations, with it by 0.1. No process stays
+below longer than it is below at one time, so P is never more than the smallest P(X(t) < b) either;
+that also serves where s is zero.
 
 Wrong where crossings come in clumps, as those of a narrow band do: then the true extreme is
 smaller. With all of the power within 8 per cent of the centre frequency the mean extreme comes out
-too large by up to 0.5 s, within a third of it by 0.05 s: on the safe side. Vanmarcke's factor for
-clumps (1975, Journal of Applied Mechanics 42) is left out: in records of 5 to 60 cycles it made the
-extreme too small by as much or more.
+too large by up to 0.5 standard deviations, within a third of it by 0.05, and by 0.2 for the size of
+a process of mean zero, whose crossings of both limits alternate: on the safe side. Vanmarcke's
+factor for clumps (1975, Journal of Applied Mechanics 42) is left out: in records of 5 to 60 cycles
+it made the largest value too small by as much or more.
 """
 
 from __future__ import annotations
