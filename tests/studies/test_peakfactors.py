@@ -126,6 +126,32 @@ def test_a_long_stationary_process_tends_to_davenport():
     assert off[-1, 1] < 0.035
 
 
+@pytest.mark.parametrize("side", ["largest", "magnitude"])
+def test_a_short_stationary_record_is_the_formula_integrated(side):
+    """One crossing of the mean: the start counts, and who is still below."""
+
+    def below(b):
+        start = stats.norm.cdf(b) - (stats.norm.cdf(-b) if side == "magnitude" else 0.0)
+        sides = 2 if side == "magnitude" else 1
+        return start * math.exp(-sides * math.exp(-(b**2) / 2) / start) if start > 0.0 else 0.0
+
+    found = extreme([0.0, 1.0], 0.0, 1.0, 0.0, 2 * np.pi, side=side)
+    low = 0.0 if side == "magnitude" else -9.0
+    area, _ = integrate.quad(below, low, 9.0)
+    assert found.mean == pytest.approx(9.0 - area, abs=1e-5)
+    for level in (1.0, 2.0, 3.0):
+        assert np.interp(level, found.levels, found.probability) == pytest.approx(
+            below(level), abs=1e-4
+        )
+
+
+def test_an_instant_has_the_distribution_of_the_process():
+    found = extreme([0.0, 1e-9], 1.0, 2.0, 0.0, 1.0)
+    assert (found.mean, found.standard_deviation) == pytest.approx((1.0, 2.0), abs=1e-3)
+    for p in (0.1, 50.0, 99.9):
+        assert found.percentile(p) == pytest.approx(1 + 2 * stats.norm.ppf(p / 100), abs=2e-3)
+
+
 # ---- against what is drawn
 
 
@@ -214,6 +240,14 @@ def test_where_nothing_is_random_the_extreme_is_that_of_the_mean():
         assert math.isnan(found.peak_factor)
 
 
+def test_what_the_mean_reaches_while_nothing_is_random_is_certain():
+    time = np.linspace(0.0, 1.0, 101)
+    sd = np.where(time < 0.5, 0.1, 0.0)
+    m = np.where(time < 0.5, 0.0, 3 * np.sin(np.pi * (2 * time - 1)))
+    found = extreme(time, m, sd, 0.0, 20 * sd)
+    assert found.mean == pytest.approx(3.0, abs=0.01) and found.percentile(5) > 2.99
+
+
 def test_a_small_deviation_about_a_mean_that_moves_far_gives_little_more_than_the_mean():
     """The step is ten deviations of the mean's motion: no sample may be counted as a crossing."""
     time = np.linspace(0.0, 1.0, 101)
@@ -232,6 +266,11 @@ def test_sides_mirror_each_other():
     assert down.mean == pytest.approx(-up.mean) and down.of_mean == -up.of_mean
     assert down.peak_factor == pytest.approx(up.peak_factor)
     assert down.percentile(10) == pytest.approx(-up.percentile(90), abs=1e-9)
+    both = [
+        extreme(case.time, sign * m, s, sign * m_rate, sd_rate, rho, side="magnitude").mean
+        for sign in (1, -1)
+    ]
+    assert both[0] == pytest.approx(both[1], rel=1e-9)
     # Up to 3 with deviation 1: the size is that of the upper side, but for rare ones.
     size = extreme(case.time, m, s, m_rate, sd_rate, rho, side="magnitude")
     assert size.mean == pytest.approx(up.mean, abs=0.01)

@@ -157,7 +157,8 @@ class Extreme:
     levels : ndarray, shape (k,)
         In the unit of the process, ascending.
     probability : ndarray, shape (k,)
-        That the extreme lies below a level. Zero at the first, one at the last but for 1e-9.
+        That the extreme lies below a level. Zero at the first, one at the last but for 1e-9,
+        unless nothing is random: then all levels are one.
     of_mean : float
         The same extreme of the mean m(t) alone.
     largest_sd : float
@@ -272,8 +273,6 @@ def extreme(
     last = min(int(np.searchsorted(inside, 1 - 1e-9)), _LEVELS - 1)
     levels = np.linspace(levels[first], levels[last], _LEVELS)
     probability = below(levels)
-    probability[0] = 0.0
-    probability[-1] = 1.0
     of_mean = float(np.max(size))
     if side == "smallest":
         levels, probability, of_mean = -levels[::-1], 1.0 - probability[::-1], -of_mean
