@@ -260,10 +260,7 @@ def extreme(
         rows = max(1, _BLOCK // len(time))
         blocks = (levels[i : i + rows, None] for i in range(0, len(levels), rows))
         process = (m, s, rate, sd_rate, rho)
-        stays = np.concatenate([_below(b, time, process, both) for b in blocks])
-        # A higher level is never passed more often; independent crossings may say otherwise for
-        # low levels of a mean that moves fast. High levels are the ones they are right for.
-        return np.minimum.accumulate(stays[::-1])[::-1]
+        return np.concatenate([_below(b, time, process, both) for b in blocks])
 
     low, high = float(np.max(size - 9 * s)), float(np.max(size + 9 * s))
     levels = np.linspace(max(low, 0.0) if both else low, high, _LEVELS)
