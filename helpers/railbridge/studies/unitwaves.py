@@ -28,7 +28,7 @@ from ..decks import Deck
 from ..errors import InputError, brief, frozen
 from ..plans import CarSteps, plan
 from ..settings import Settings, check, refuse_bytes
-from ..tracks import Harmonic, Track
+from ..tracks import Harmonic, Rails, Track
 from ..trains import AnyTrain
 from ..vehicles import Vehicle
 from .outputs import OUTPUTS, Output, outputs_at
@@ -47,7 +47,7 @@ COMPONENTS = {
 
 @dataclass(frozen=True, eq=False)
 class UnitHistory:
-    """One quantity of a crossing: on level track, and what waves of 1 m add.
+    """One quantity of a crossing: on track without waves, and what waves of 1 m add.
 
     Attributes
     ----------
@@ -55,6 +55,7 @@ class UnitHistory:
     time : ndarray, shape (n,)
         s; zero when the first axle enters.
     level : ndarray, shape (n,)
+        Without waves.
     waves : ndarray, shape (components, n, 2 waves)
         Of every wave its cosine and its sine in turn, per m.
     """
@@ -115,6 +116,7 @@ def unit_waves(
     quantities: Sequence[str] = ("displacement_z",),
     points: Sequence[float] | None = None,
     wheels_of: Sequence[int] = (),
+    base: Track | None = None,
     progress: Callable[[str], None] | None = None,
     **options,
 ) -> UnitWaves:
@@ -134,9 +136,12 @@ def unit_waves(
         m along the deck; mid-span if not given.
     wheels_of : sequence of int
         Cars whose vertical wheel forces are kept, from 1.
+    base : Track, optional
+        What else the rails are off by, beneath the waves; level if not given. It has the run-up of
+        `cross`; the waves come from far.
     progress : function of one text, optional
     **options
-        As for `cross`, of which `lead_in` has no meaning: the waves come from far.
+        As for `cross`.
 
     Raises
     ------
@@ -148,11 +153,12 @@ def unit_waves(
         raise InputError("edges", edges, "must ascend and hold at least two wave numbers")
     components = _checked_components(components)
     outputs = outputs_at(deck, quantities, [deck.length / 2] if points is None else points)
-    settings = _settings(train, deck, float(edges[-1]), options)
+    base = Track() if base is None else errors.instance("base", base, Track)
+    settings = _settings(train, deck, base, float(edges[-1]), options)
     kept = [train.car(number).number - 1 for number in wheels_of]
     waves = len(edges) - 1
     _refuse_size(train, deck, settings, len(components) * waves, len(outputs), kept)
-    coupling = prepare(train, deck, Track(), settings)
+    coupling = prepare(train, deck, base, settings)
     steps = plan(coupling)
     if settings.interaction == "rigid":  # the wheels do not feel the deck
         still = {id(c): _without_feeling(c) for c in steps.cars}
@@ -196,20 +202,23 @@ def _checked_components(components: Sequence[str]) -> tuple[str, ...]:
     return tuple(components)
 
 
-def _settings(train: AnyTrain, deck: Deck, largest: float, options: Mapping) -> Settings:
+def _settings(
+    train: AnyTrain, deck: Deck, base: Track, largest: float, options: Mapping
+) -> Settings:
     """Return the checked settings of a crossing whose shortest wave is that of a wave number."""
     if isinstance(train, AnyTrain) and not train.kinds():
         allowed = "bare axle loads do not feel the track"
         raise InputError("train", train, allowed, "Use a train of vehicles")
-    if isinstance(train, AnyTrain) and train.notches:
-        allowed = "has wheels with notches, which are no waves of the track"
-        raise InputError("train.notches", train.notches, allowed, "Leave them out")
-    for name in ("lead_in", "iterations", "relaxation", "max_iterations", "tolerance_of"):
+    for name in ("iterations", "relaxation"):
         if options.get(name) is not None:
-            allowed = "has no meaning here: waves come from far, and are solved without passes"
+            allowed = "has no meaning here: waves are solved without passes"
             raise InputError(name, options[name], allowed, "Leave it out")
-    shortest = Track(vertical=Harmonic(1.0, wavelength=2 * np.pi / largest))
-    settings = check(train, deck, shortest, **options)
+    sides = {
+        side: [base.rail("vertical", side), Harmonic(1.0, wavelength=2 * np.pi / largest)]
+        for side in ("left", "right")
+    }
+    track = Track(vertical=Rails(**sides), lateral=base.lateral)
+    settings = check(train, deck, track, **options)
     if settings.contact != "permanent":
         allowed = "is not linear, and waves can be added up on linear contacts only"
         raise InputError("contact", settings.contact, allowed, "Use contact = 'permanent'")
@@ -239,7 +248,7 @@ def _lanes(coupling: Coupling, wavenumbers: np.ndarray, components: Sequence[str
     """Return what every wave of every component gives the wheels on a rigid deck."""
     settings = coupling.settings
     known: dict[int, np.ndarray] = {}
-    forces, static = [], []
+    forces = []
     for c in coupling.cars:
         vehicle = c.car.vehicle
         if id(vehicle) not in known:
@@ -259,9 +268,8 @@ def _lanes(coupling: Coupling, wavenumbers: np.ndarray, components: Sequence[str
             )
         entry = np.exp(-1j * np.tile(wavenumbers, len(components)) * c.car.centre)
         forces.append(np.ascontiguousarray(known[id(vehicle)] * entry))
-        static.append(c.static.ravel())
     rates = np.tile(wavenumbers * settings.speed, len(components))
-    return Waves(rates, tuple(forces), tuple(static), float(coupling.time[0]))
+    return Waves(rates, tuple(forces), float(coupling.time[0]))
 
 
 def wave_forces(
