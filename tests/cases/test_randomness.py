@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 import railbridge as rb
-from railbridge.cases import tables
 from railbridge.cases.randomness import certain_part, random_track
-from railbridge.cases.tabletypes import checked
 from railbridge.errors import InputError
 
 DRAWN = {"kind": "random", "spectrum": "german-low", "seed": 5, "band": [3.0, 100.0]}
@@ -28,7 +26,7 @@ def case(vertical=None, lateral=None, **changes):
 
 
 def drawn(own):
-    return random_track(checked(tables.CASE, own.content).track)[0]
+    return random_track(own.content)[0]
 
 
 @pytest.fixture(scope="module")

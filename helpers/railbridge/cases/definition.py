@@ -171,7 +171,7 @@ class Case:
         InputError
             As `randomness.random_track` and `studies.random_response`.
         """
-        track, places = random_track(checked(tables.CASE, self.content).track)
+        track, places = random_track(self.content)
         own = {"edges": f"{places[0]}.band", "track": places[0]}
         with within(names=IN_A_CASE | own):
             return random_response(

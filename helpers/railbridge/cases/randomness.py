@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -14,7 +14,7 @@ from ..irregularities.densities import ScaledDensity
 from ..irregularities.realisations import PERIOD
 from ..tracks import Irregularity, Rails, Track
 from . import shelf, tables
-from .tabletypes import Table
+from .tabletypes import Table, checked
 
 __all__ = ["certain_part", "random_rail", "random_track"]
 
@@ -81,10 +81,15 @@ def random_rail(path: str, given: dict[str, Any], side: str) -> Irregularity:
 # ---- the whole
 
 
-def random_track(given: Table | None) -> tuple[RandomTrack, tuple[str, ...]]:
-    """Return what of a checked ``[track]`` is drawn, as one track, and the paths where it stands.
+def random_track(content: Mapping[str, Any]) -> tuple[RandomTrack, tuple[str, ...]]:
+    """Return what of a case's track is drawn, as one track, and the paths where it stands.
 
     Its realisation of a seed is the track of a case with that seed at all these paths.
+
+    Parameters
+    ----------
+    content : mapping
+        The tables of the case.
 
     Raises
     ------
@@ -92,7 +97,7 @@ def random_track(given: Table | None) -> tuple[RandomTrack, tuple[str, ...]]:
         Nothing of it is random; more than one random track in a direction, or one of a single rail;
         directions that differ in spectrum, band, seed or period.
     """
-    found = dict(_tables(given))
+    found = dict(_tables(checked(tables.CASE, content).track))
     if not found:
         remedy = 'For instance vertical = { kind = "random", spectrum = "german-low", seed = 1 }'
         raise InputError("track", None, 'holds nothing of kind = "random"', remedy)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -108,7 +108,12 @@ def shares_of(track: RandomTrack, waves: UnitWaves, seed: int) -> np.ndarray:
     return np.array(result)
 
 
-def draw(track: RandomTrack, waves: UnitWaves, seeds: np.ndarray) -> Ensemble:
+def draw(
+    track: RandomTrack,
+    waves: UnitWaves,
+    seeds: np.ndarray,
+    progress: Callable[[str], None] | None = None,
+) -> Ensemble:
     """Return the extremes of realisations: products of matrices.
 
     Parameters
@@ -116,19 +121,26 @@ def draw(track: RandomTrack, waves: UnitWaves, seeds: np.ndarray) -> Ensemble:
     track : RandomTrack
     waves : UnitWaves
     seeds : ndarray of int, shape (realisations,)
+    progress : function of one text, optional
     """
-    own = np.array([shares_of(track, waves, int(seed)) for seed in seeds])
-    own = own.reshape(len(seeds), -1).T
-    low, high = {}, {}
-    for name, history in waves.histories.items():
-        lanes = np.moveaxis(history.waves, 0, 1).reshape(len(history.time), -1)
-        together = max(_TOGETHER // len(history.time), 1)
-        found = []
-        for first in range(0, len(seeds), together):
-            y = lanes @ own[:, first : first + together]
+    lanes = {
+        name: np.moveaxis(history.waves, 0, 1).reshape(len(history.time), -1)
+        for name, history in waves.histories.items()
+    }
+    width = max(max(own.shape) for own in lanes.values())
+    together = max(_TOGETHER // width, 1)
+    low, high = ({name: np.empty(len(seeds)) for name in waves.histories} for _ in range(2))
+    for first in range(0, len(seeds), together):
+        some = slice(first, first + together)
+        own = np.array([shares_of(track, waves, int(seed)) for seed in seeds[some]])
+        own = own.reshape(len(own), -1).T
+        for number, (name, history) in enumerate(waves.histories.items()):
+            y = lanes[name] @ own
             y += history.level[:, None]
-            found.append((y.min(axis=0), y.max(axis=0)))
-        low[name], high[name] = (np.concatenate(part) for part in zip(*found, strict=True))
+            low[name][some], high[name][some] = y.min(axis=0), y.max(axis=0)
+            if progress is not None:
+                done = f"realisations {first + 1} to {first + own.shape[1]} of {len(seeds)}"
+                progress(f"{done}, history {number + 1} of {len(lanes)}")
     static = {}
     for wheel in waves.train.wheels:
         name = f"wheel_force_z of car {wheel.car}, wheel {wheel.number}"

@@ -127,11 +127,13 @@ class RandomResponse:
         track = replace(self.track, spectrum=spectrum, components=self.waves.components)
         return RandomResponse(track, self.waves)
 
-    def ensemble(self, realisations: int = 200) -> Ensemble:
+    def ensemble(
+        self, realisations: int = 200, progress: Callable[[str], None] | None = None
+    ) -> Ensemble:
         """Return the extremes of many realisations, of the track's seed and those after it."""
         count = errors.integer("realisations", realisations, least=2, most=1_000_000)
         seeds = self.track.seed + np.arange(count)
-        return draw(self.track, self.waves, seeds)
+        return draw(self.track, self.waves, seeds, progress)
 
     def to_frame(self, name: str):
         """Return a pandas DataFrame: mean and standard deviation by time."""
