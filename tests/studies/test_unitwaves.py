@@ -163,3 +163,17 @@ def test_too_many_waves_are_refused_before_they_are_computed(train, deck):
     edges = np.linspace(0.01, 2.0, 200_000)
     with pytest.raises(rb.InputError, match="memory"):
         unit_waves(train, deck, edges, speed=SPEED)
+
+
+def test_gauge_moves_nothing_on_massless_axles_and_takes_no_time(train, deck):
+    waves = unit_waves(
+        train, deck, EDGES, components=("gauge", "vertical"), wheels_of=(1,), speed=SPEED
+    )
+    alone = unit_waves(train, deck, EDGES, components=("gauge",), speed=SPEED)
+    for own in waves.histories.values():
+        assert own.waves.shape == (2, len(own.time), 4)
+        assert not own.waves[0].any()
+        assert own.waves[1].any()
+    (own,) = alone.histories.values()
+    assert own.waves.shape == (1, len(own.time), 4)
+    assert not own.waves.any()
