@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import railbridge as rb
+from railbridge.studies import outputs_at
 
 CONTINUOUS = {
     "spans": [20.0, 25.0], "bending_stiffness_vertical": 6e10, "bending_stiffness_lateral": 4e11,
@@ -56,7 +57,7 @@ def test_decks_and_trains_that_have_been_used(deck, vehicle):
     run = rb.cross(train, deck, track, speed=30.0, tail=0.1, iterations=1)
     # What they have worked out is kept, and sent along.
     run.displacement(5.0), run.section_forces(5.0), run.reactions(), run.body_accelerations
-    for name, sent in (("deck", deck), ("train", train), ("settings", run.settings)):
+    outputs = outputs_at(deck, ("acceleration_z", "displacement_z", "moment_vertical"), [5.0])
+    used = {"deck": deck, "train": train, "settings": run.settings, "outputs": outputs}
+    for name, sent in used.items():
         assert not list(differing(sent, pickle.loads(pickle.dumps(sent)), name, set()))
-
-
