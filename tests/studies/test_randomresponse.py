@@ -194,3 +194,23 @@ def test_refusals(response, train, deck):
     )  # fmt: skip
     with pytest.raises(rb.InputError, match="wheels_of"):
         level.ensemble(2).values("wheel_unloading")
+
+
+def test_a_car_without_damping_is_refused(deck):
+    # Its variance was that of the nearest wave: 3.4 times more with a period ten times longer.
+    train = rb.Train(rb.vehicle("sprung_mass"), cars=2)
+    with pytest.raises(rb.InputError, match="no damping at 2.65 Hz"):
+        rb.random_response(train, deck, "german-low", speed=SPEED)
+
+
+def test_a_lightly_damped_car_makes_the_period_longer(deck):
+    car = rb.sprung_mass("light", 30e3, stiffness=30e3 * (2 * np.pi * 1.1) ** 2, damping=1.5e3)
+    train = rb.Train(car, cars=1)
+    options = {"speed": SPEED, "time_step": 4e-3, "wheels_of": (1,)}
+    track = rb.RandomTrack("german-low", band=(6, 100), components=("vertical",))
+    name = "wheel_force_z of car 1, wheel 1"
+    exact = rb.random_response(train, deck, replace(track, period=30e3), **options)
+    chosen = rb.random_response(train, deck, track, **options)
+    assert chosen.sigma(name) == pytest.approx(exact.sigma(name), rel=0.1)
+    with pytest.warns(rb.InputWarning, match="too far apart"):
+        rb.random_response(train, deck, replace(track, period=250.0), **options)

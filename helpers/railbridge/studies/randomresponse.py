@@ -22,12 +22,14 @@ from functools import cached_property
 import numpy as np
 
 from .. import errors
+from ..crossing import warn_of
 from ..decks import Deck
-from ..errors import InputError, brief
+from ..errors import InputError, InputWarning, brief
 from ..irregularities import RandomTrack, TrackSpectrum
 from ..settings import LEAD_IN_SECONDS
 from ..tracks import Track
 from ..trains import AnyTrain
+from ..vehicles import Vehicle
 from .ensembles import Ensemble, draw, shares_of
 from .peakfactors import Extreme, extreme
 from .unitwaves import UnitWaves, unit_waves
@@ -36,6 +38,12 @@ __all__ = ["RandomResponse", "random_response"]
 
 _LONGER = 1.1
 """How much longer than the way of the train the track is before it repeats itself."""
+_LEFT = 0.1
+"""Share of a car's free vibration that may be left after a period of the track.
+
+Waves that are that far apart miss or meet a sharp resonance by chance: the variance of such a mode
+alone is wrong by up to twice this share.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,7 +190,7 @@ def random_response(
     deck : Deck
     track : RandomTrack, or a spectrum or its name
         A spectrum stands for its `RandomTrack`. A period that is not given is chosen, a tenth
-        longer than run-up, deck and train.
+        longer than run-up, deck and train, and so long that cars forget what they met before it.
     quantities : sequence of str
         What is asked for at every point: displacements, accelerations, section forces.
     points : sequence of float, optional
@@ -200,7 +208,13 @@ def random_response(
     Raises
     ------
     InputError
-        What is not linear, or would not fit into memory.
+        What is not linear, or would not fit into memory; a car without damping, whose answer to
+        waves that come from far has no bound.
+
+    Warns
+    -----
+    InputWarning
+        A given period so short that the waves are too far apart for a car's resonance.
 
     Notes
     -----
@@ -221,11 +235,32 @@ def _long_enough(train: AnyTrain, deck: Deck, track: RandomTrack, speed: float) 
     speed = errors.number("speed", speed, above=0.0, unit="m/s")
     length = errors.instance("deck", deck, Deck).length + 2 * deck.reach
     length += errors.instance("train", train, AnyTrain).length
+    memory = speed * np.log(1.0 / _LEFT) * max((_memory(v) for v, _ in train.kinds()), default=0.0)
     if track.period is None:
         way = _LONGER * (LEAD_IN_SECONDS * speed + length)
-        return replace(track, period=float(10.0 * np.ceil(way / 10.0)))
+        return replace(track, period=float(10.0 * np.ceil(max(way, memory) / 10.0)))
     if track.length < length:
         allowed = f"is shorter than deck and train, {length:.4g} m: wheels would meet the same"
         allowed += " waves again"
         raise InputError("track.period", track.period, allowed, "Leave it out to have it chosen")
+    if track.length < memory:
+        text = f"= {track.period:g} m: the waves are too far apart for a car so lightly damped, "
+        text += f"{memory:.4g} m are needed. Leave it out to have it chosen."
+        warn_of([InputWarning("track.period", text)])
     return track
+
+
+def _memory(vehicle: Vehicle) -> float:
+    """Return after which time the slowest mode that wheels feel has fallen to 1 / e, s."""
+    system = vehicle.system
+    poles = np.linalg.eigvals(system.a)
+    if system.modal is not None:
+        poles, left, show, _ = system.modal
+        felt = np.abs(show).max(axis=0) * np.abs(left).max(axis=1)
+        poles = poles[felt > 1e-9 * felt.max(initial=0.0)]
+    slowest = poles[np.argmax(poles.real)]
+    if slowest.real > -1e-6 * abs(slowest):
+        allowed = f"has no damping at {abs(slowest) / (2 * np.pi):.3g} Hz: on waves that come from "
+        allowed += "far its answer has no bound"
+        raise InputError(f"vehicle {vehicle.name}", None, allowed, "Give it dampers")
+    return -1.0 / slowest.real
