@@ -15,7 +15,7 @@ Nothing is assumed but that train and deck are linear; that answers are Gaussian
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -26,6 +26,7 @@ from ..crossing import warn_of
 from ..decks import Deck
 from ..errors import InputError, InputWarning, brief
 from ..irregularities import RandomTrack, TrackSpectrum
+from ..irregularities.realisations import MOST_SEED
 from ..settings import LEAD_IN_SECONDS
 from ..tracks import Track
 from ..trains import AnyTrain
@@ -38,6 +39,8 @@ __all__ = ["RandomResponse", "random_response"]
 
 _LONGER = 1.1
 """How much longer than the way of the train the track is before it repeats itself."""
+_LANES = 256
+"""Lanes that are squared at once."""
 _LEFT = 0.1
 """Share of a car's free vibration that may be left after a period of the track.
 
@@ -93,7 +96,8 @@ class RandomResponse:
         if component is not None:
             errors.choice("component", component, self.waves.components)
             place = self.waves.components.index(component)
-            return np.sqrt(own.waves[place] ** 2 @ self._powers[place])
+            parts = self._parts(own.waves[place], self._powers[place])
+            return np.sqrt(sum(some**2 @ powers for some, powers in parts))
         return self._moments(name)[0]
 
     def spectrum_at(self, name: str, time: float) -> np.ndarray:
@@ -126,8 +130,9 @@ class RandomResponse:
     def history(self, name: str, seed: int) -> np.ndarray:
         """Return a history on the realisation of one seed, shape (n,)."""
         own = self.waves.history(name)
-        errors.integer("seed", seed, least=0)
-        shares = shares_of(self.track, self.waves, seed)
+        shares = shares_of(
+            self.track, self.waves, errors.integer("seed", seed, least=0, most=MOST_SEED)
+        )
         return own.level + np.einsum("cnk,ck->n", own.waves, shares)
 
     def on(self, spectrum: TrackSpectrum | str) -> RandomResponse:
@@ -138,6 +143,9 @@ class RandomResponse:
     def ensemble(self, realisations: int = 200) -> Ensemble:
         """Return the extremes of many realisations, of the track's seed and those after it."""
         count = errors.integer("realisations", realisations, least=2, most=1_000_000)
+        if self.track.seed + count - 1 > MOST_SEED:
+            allowed = f"must leave room for {count} seeds up to {MOST_SEED}"
+            raise InputError("track.seed", self.track.seed, allowed, "Take a smaller one")
         seeds = self.track.seed + np.arange(count)
         return draw(self.track, self.waves, seeds)
 
@@ -154,16 +162,24 @@ class RandomResponse:
         """Variance of every lane, m2, shape (components, 2 waves)."""
         return np.array([np.repeat(self.track.powers[c], 2) for c in self.waves.components])
 
+    @staticmethod
+    def _parts(waves: np.ndarray, powers: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Give some lanes after others, so that what is made of them is small beside all."""
+        for first in range(0, len(powers), _LANES):
+            some = slice(first, first + _LANES)
+            yield waves[:, some], powers[some]
+
     def _moments(self, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the standard deviations of a history and of its rate, and their correlation."""
         if name not in self._known:
             own = self.waves.history(name)
             square, of_rate, mixed = np.zeros((3, len(own.time)))
-            for waves, powers in zip(own.waves, self._powers, strict=True):
-                rates = np.gradient(waves, own.time, axis=0)
-                square += waves**2 @ powers
-                of_rate += rates**2 @ powers
-                mixed += (waves * rates) @ powers
+            for component in zip(own.waves, self._powers, strict=True):
+                for waves, powers in self._parts(*component):
+                    rates = np.gradient(waves, own.time, axis=0)
+                    square += waves**2 @ powers
+                    of_rate += rates**2 @ powers
+                    mixed += (waves * rates) @ powers
             sizes = np.sqrt(square * of_rate)
             together = np.divide(mixed, sizes, out=np.zeros_like(mixed), where=sizes > 0.0)
             self._known[name] = np.sqrt(square), np.sqrt(of_rate), np.clip(together, -1.0, 1.0)
@@ -222,6 +238,9 @@ def random_response(
     """
     if not isinstance(track, RandomTrack):
         track = RandomTrack(track)
+    if "components" in options:
+        remedy = "Write RandomTrack(..., components = ('vertical',))"
+        raise InputError("components", options["components"], "belong to the track", remedy)
     track = _long_enough(train, deck, track, options.get("speed"))
     waves = unit_waves(
         train, deck, track.edges, components=track.components, quantities=quantities,
