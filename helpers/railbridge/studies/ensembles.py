@@ -16,7 +16,7 @@ from .unitwaves import UnitWaves
 __all__ = ["Ensemble", "draw", "shares_of"]
 
 _TOGETHER = 2**24
-"""Numbers of histories at once."""
+"""Numbers of histories, or of shares of waves, at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +85,7 @@ class Ensemble:
         **options
             See `statistics.describe`.
         """
-        return describe(self.values(name, side), **options)
+        return describe(self.values(name, side), **{"unit": self.units.get(name, ""), **options})
 
     def to_frame(self, side: str = "magnitude"):
         """Return a pandas DataFrame with a row a realisation and a column a history."""
@@ -117,18 +117,19 @@ def draw(track: RandomTrack, waves: UnitWaves, seeds: np.ndarray) -> Ensemble:
     waves : UnitWaves
     seeds : ndarray of int, shape (realisations,)
     """
-    own = np.array([shares_of(track, waves, int(seed)) for seed in seeds])
-    own = own.reshape(len(seeds), -1).T
-    low, high = {}, {}
-    for name, history in waves.histories.items():
-        lanes = np.moveaxis(history.waves, 0, 1).reshape(len(history.time), -1)
-        together = max(_TOGETHER // len(history.time), 1)
-        found = []
-        for first in range(0, len(seeds), together):
-            y = lanes @ own[:, first : first + together]
-            y += history.level[:, None]
-            found.append((y.min(axis=0), y.max(axis=0)))
-        low[name], high[name] = (np.concatenate(part) for part in zip(*found, strict=True))
+    histories = waves.histories
+    lanes = len(waves.components) * 2 * len(waves.wavenumbers)
+    longest = max(len(history.time) for history in histories.values())
+    together = max(_TOGETHER // max(longest, lanes), 1)
+    low, high = ({name: np.empty(len(seeds)) for name in histories} for _ in range(2))
+    for first in range(0, len(seeds), together):
+        some = slice(first, first + together)
+        shares = np.array([shares_of(track, waves, int(seed)) for seed in seeds[some]])
+        for name, history in histories.items():
+            y = np.repeat(history.level[:, None], len(shares), axis=1)
+            for component, own in enumerate(history.waves):
+                y += own @ shares[:, component].T
+            low[name][some], high[name][some] = y.min(axis=0), y.max(axis=0)
     static = {}
     for wheel in waves.train.wheels:
         name = f"wheel_force_z of car {wheel.car}, wheel {wheel.number}"

@@ -153,8 +153,13 @@ def unit_waves(
         raise InputError("edges", edges, "must ascend and hold at least two wave numbers")
     components = _checked_components(components)
     outputs = outputs_at(deck, quantities, [deck.length / 2] if points is None else points)
+    if len({_name(output) for output in outputs}) < len(outputs):
+        raise InputError("points", points, "two of them are the same in six digits")
     base = Track() if base is None else errors.instance("base", base, Track)
     settings = _settings(train, deck, base, float(edges[-1]), options)
+    if not errors.is_list(wheels_of):
+        allowed = "must list numbers of cars"
+        raise InputError("wheels_of", wheels_of, allowed, f"Write wheels_of = ({wheels_of},)")
     kept = [train.car(number).number - 1 for number in wheels_of]
     waves = len(edges) - 1
     _refuse_size(train, deck, settings, len(components) * waves, len(outputs), kept)
@@ -169,7 +174,7 @@ def unit_waves(
     found, wheels = step_waves(steps, lanes, asking, settings.time_step, kept, progress)
     histories, shape = {}, (waves, components, felt)
     for output, own in zip(outputs, found, strict=True):
-        name = f"{output.quantity} at {output.x:g} m"
+        name = _name(output)
         histories[name] = _history(OUTPUTS[output.quantity], coupling.time, own, *shape)
     for i, own in wheels.items():
         time = coupling.time[own.first :][: own.forces.shape[1]]
@@ -181,6 +186,10 @@ def unit_waves(
 
 def _without_feeling(car: CarSteps) -> CarSteps:
     return replace(car, stiffness=0.0 * car.stiffness, damping=0.0 * car.damping)
+
+
+def _name(output: Output) -> str:
+    return f"{output.quantity} at {output.x:g} m"
 
 
 def _is_felt(coupling: Coupling, wavenumber: float, component: str) -> bool:

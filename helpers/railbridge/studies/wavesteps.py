@@ -156,8 +156,8 @@ def step_waves(
             total[:] = 0.0
             for own in on:
                 total += own.meet(rolling[own.car], n, ahead, waves, turns[n])
-            np.matmul(solved[n], total[:modes], out=force)
-            still = first + n == 0  # the first sample moves nothing
+            still = first + n == 0  # the first sample moves nothing, so wheels feel nothing
+            force[:] = total[:modes] if still else solved[n] @ total[:modes]
             standing[n] = total[modes:]
             for own in on:
                 standing[n] += own.go_on(rolling[own.car], n, force, still)
