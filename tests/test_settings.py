@@ -118,6 +118,8 @@ def test_options_are_declared_once():
 )
 def test_the_memory_that_is_foreseen_is_about_what_is_used(cars, options):
     """Peak of what NumPy keeps while run, histories and envelope are made: never far above."""
+    # A loop that is still to be compiled would count with its compiler.
+    rb.cross(rb.Train(CAR), DECK, speed=20.0, time_step=4e-3, interaction="direct", tail=0.0)
     train = rb.Train(CAR, cars=cars)
     settings = check(train, DECK, rb.Track(), speed=20.0, **options)
     foreseen = bytes_needed(train, DECK, settings) - 1.2e8  # what Python and its packages take

@@ -171,3 +171,10 @@ def test_refusals(options, field):
     with pytest.raises(rb.InputError) as refusal:
         rb.RandomTrack(**{"spectrum": "german-low"} | options)
     assert refusal.value.field.startswith(field)
+
+
+def test_a_seed_that_would_be_rounded_to_another_is_refused():
+    # 2**53 + 1 is no floating-point number: it gave the track of 2**53.
+    with pytest.raises(rb.InputError, match="seed"):
+        rb.RandomTrack("german-low", seed=2**53 + 2)
+    assert rb.RandomTrack("german-low", seed=2**53 - 1, band=(30, 60)).seed == 2**53 - 1

@@ -7,6 +7,7 @@ import pytest
 from scipy import stats
 
 import railbridge as rb
+from railbridge.studies import ensembles
 
 SPEED = 25.0
 NAME = "displacement_z at 18 m"
@@ -194,3 +195,81 @@ def test_refusals(response, train, deck):
     )  # fmt: skip
     with pytest.raises(rb.InputError, match="wheels_of"):
         level.ensemble(2).values("wheel_unloading")
+
+
+def test_a_car_without_damping_is_refused(deck):
+    # Its variance was that of the nearest wave: 3.4 times more with a period ten times longer.
+    train = rb.Train(rb.vehicle("sprung_mass"), cars=2)
+    with pytest.raises(rb.InputError, match="no damping at 2.65 Hz"):
+        rb.random_response(train, deck, "german-low", speed=SPEED)
+
+
+def test_a_lightly_damped_car_makes_the_period_longer(deck):
+    car = rb.sprung_mass("light", 30e3, stiffness=30e3 * (2 * np.pi * 1.1) ** 2, damping=1.5e3)
+    train = rb.Train(car, cars=1)
+    options = {"speed": SPEED, "time_step": 4e-3, "wheels_of": (1,)}
+    track = rb.RandomTrack("german-low", band=(6, 100), components=("vertical",))
+    name = "wheel_force_z of car 1, wheel 1"
+    exact = rb.random_response(train, deck, replace(track, period=30e3), **options)
+    chosen = rb.random_response(train, deck, track, **options)
+    assert chosen.sigma(name) == pytest.approx(exact.sigma(name), rel=0.1)
+    with pytest.warns(rb.InputWarning, match="too far apart"):
+        rb.random_response(train, deck, replace(track, period=250.0), **options)
+
+
+def test_an_ensemble_counts_on_from_any_seed_it_can(response):
+    late = replace(response, track=replace(response.track, seed=2**53 - 1))
+    assert late.ensemble(2).of(2).seed == 2**53
+    full = replace(response, track=replace(response.track, seed=2**53))
+    with pytest.raises(rb.InputError, match=r"track\.seed"):
+        full.ensemble(2)
+
+
+def test_a_large_ensemble_is_drawn_in_parts(response, monkeypatch):
+    whole = response.ensemble(5)
+    monkeypatch.setattr(ensembles, "_TOGETHER", 2 * len(response.time(NAME)))
+    parts = response.ensemble(5)
+    for name in whole.low:
+        assert parts.low[name] == pytest.approx(whole.low[name], rel=1e-12)
+        assert parts.high[name] == pytest.approx(whole.high[name], rel=1e-12)
+
+
+def test_an_ensemble_of_many_needs_no_memory_for_all_of_them(response, monkeypatch):
+    asked = []
+    monkeypatch.setattr(ensembles, "_TOGETHER", 100_000)
+    monkeypatch.setattr(
+        ensembles, "shares_of", lambda *given: asked.append(1) or np.zeros((4, 100))
+    )
+    monkeypatch.setattr(ensembles.np, "repeat", _stop)
+    with pytest.raises(KeyboardInterrupt):
+        response.ensemble(1_000_000)
+    assert len(asked) < 1000
+
+
+def _stop(*_, **__):
+    raise KeyboardInterrupt
+
+
+def test_statistics_know_their_unit(response):
+    assert response.ensemble(5).statistics(NAME).unit == "m"
+    assert response.ensemble(5).statistics("wheel_unloading").unit == ""
+
+
+def test_a_seed_may_be_written_as_a_float(response):
+    assert np.array_equal(response.history(NAME, 7.0), response.history(NAME, 7))
+
+
+@pytest.mark.parametrize(
+    ("options", "field"),
+    [
+        ({"components": ("vertical",)}, "components"),
+        ({"wheels_of": 1}, "wheels_of"),
+        ({"wheels_of": "1"}, "wheels_of"),
+        ({"points": (18.0, 18.0 + 1e-6)}, "points"),
+    ],
+)
+def test_slips_are_refused(train, deck, options, field):
+    track = rb.RandomTrack("german-low", band=(30, 100), period=250.0)
+    with pytest.raises(rb.InputError) as refusal:
+        rb.random_response(train, deck, track, speed=SPEED, **options)
+    assert refusal.value.field == field

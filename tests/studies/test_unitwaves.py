@@ -92,6 +92,20 @@ def test_wheelsets_under_a_rail(deck):
     _hold(train, deck, ("vertical", "cross_level"), quantities, time_step=5e-4)
 
 
+def test_wheels_that_stand_on_an_end_that_moves_from_the_first_sample_on():
+    # They did feel it there, which was 0.3 % of the acceleration, more than the waves' own share.
+    content = {
+        "length": 36.0, "mass": 8e3, "bending_stiffness_vertical": 5e10, "damping": {"modal": 0.02},
+        "bearing": [
+            {"x": 0.0, "fixed": "x y roll", "stiffness": {"z": 2e9}},
+            {"x": 36.0, "fixed": "y roll", "stiffness": {"z": 2e9}},
+        ],
+    }  # fmt: skip
+    deck = rb.deck_from_table("elastic", content)
+    train = rb.Train(rb.vehicle("xia2000_planar"), cars=2, car_spacing=22.5)
+    _hold(train, deck, ("vertical",), ("displacement_z", "acceleration_z"), time_step=4e-3)
+
+
 def test_forces_on_a_rigid_deck_tend_to_the_transfer_function_as_the_step_falls():
     car = rb.vehicle("xia2000")
     wavelength, speed = 7.0, 30.0
@@ -163,3 +177,17 @@ def test_too_many_waves_are_refused_before_they_are_computed(train, deck):
     edges = np.linspace(0.01, 2.0, 200_000)
     with pytest.raises(rb.InputError, match="memory"):
         unit_waves(train, deck, edges, speed=SPEED)
+
+
+def test_gauge_moves_nothing_on_massless_axles_and_takes_no_time(train, deck):
+    waves = unit_waves(
+        train, deck, EDGES, components=("gauge", "vertical"), wheels_of=(1,), speed=SPEED
+    )
+    alone = unit_waves(train, deck, EDGES, components=("gauge",), speed=SPEED)
+    for own in waves.histories.values():
+        assert own.waves.shape == (2, len(own.time), 4)
+        assert not own.waves[0].any()
+        assert own.waves[1].any()
+    (own,) = alone.histories.values()
+    assert own.waves.shape == (1, len(own.time), 4)
+    assert not own.waves.any()

@@ -39,6 +39,8 @@ __all__ = ["PAIRS", "PERIOD", "RandomTrack", "phases"]
 PERIOD = 2000.0
 """m after which a random track repeats itself, if nothing else is asked for."""
 MOST_WAVES = 20_000
+MOST_SEED = 2**53
+"""Beyond it floating-point numbers leave whole numbers out, and files of cases may do so, too."""
 PAIRS = {"vertical": ("vertical", "cross_level"), "lateral": ("alignment", "gauge")}
 """What moves both rails alike in a direction, and what moves them apart."""
 
@@ -66,7 +68,7 @@ class RandomTrack(Track):
     band : (float, float)
         Shortest and longest wave, m, within the band in which the spectrum holds.
     seed : int
-        Of the phases, from 0: the same seed gives the same track, on every machine.
+        Of the phases, from 0 to 2**53: the same seed gives the same track, on every machine.
     components : tuple of str
         Some of `COMPONENTS`; if not given, all that the spectrum has.
     period : float, optional
@@ -90,7 +92,7 @@ class RandomTrack(Track):
     lateral: Irregularity | Rails | None = field(init=False, repr=False)
     spectrum: TrackSpectrum | str = "german-low"
     band: tuple[float, float] = (3.0, 150.0)
-    seed: Annotated[int, Range(least=0, whole=True)] = 0
+    seed: Annotated[int, Range(least=0, most=MOST_SEED, whole=True)] = 0
     components: tuple[str, ...] | None = None
     period: Annotated[float, Range(above=0.0, unit="m")] | None = None
 
@@ -100,7 +102,7 @@ class RandomTrack(Track):
         chosen = {
             "spectrum": own,
             "band": own.checked_band(self.band),
-            "seed": errors.integer("seed", self.seed, least=0),
+            "seed": errors.integer("seed", self.seed, least=0, most=MOST_SEED),
             "components": _components(own, self.components),
         }
         if self.period is not None:

@@ -16,7 +16,7 @@ from .unitwaves import UnitWaves
 __all__ = ["Ensemble", "draw", "shares_of"]
 
 _TOGETHER = 2**24
-"""Numbers of histories at once."""
+"""Numbers of histories, or of shares of waves, at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +85,7 @@ class Ensemble:
         **options
             See `statistics.describe`.
         """
-        return describe(self.values(name, side), **options)
+        return describe(self.values(name, side), **{"unit": self.units.get(name, ""), **options})
 
     def to_frame(self, side: str = "magnitude"):
         """Return a pandas DataFrame with a row a realisation and a column a history."""
@@ -123,24 +123,21 @@ def draw(
     seeds : ndarray of int, shape (realisations,)
     progress : function of one text, optional
     """
-    lanes = {
-        name: np.moveaxis(history.waves, 0, 1).reshape(len(history.time), -1)
-        for name, history in waves.histories.items()
-    }
-    width = max(max(own.shape) for own in lanes.values())
-    together = max(_TOGETHER // width, 1)
-    low, high = ({name: np.empty(len(seeds)) for name in waves.histories} for _ in range(2))
+    histories = waves.histories
+    lanes = len(waves.components) * 2 * len(waves.wavenumbers)
+    longest = max(len(history.time) for history in histories.values())
+    together = max(_TOGETHER // max(longest, lanes), 1)
+    low, high = ({name: np.empty(len(seeds)) for name in histories} for _ in range(2))
     for first in range(0, len(seeds), together):
         some = slice(first, first + together)
-        own = np.array([shares_of(track, waves, int(seed)) for seed in seeds[some]])
-        own = own.reshape(len(own), -1).T
-        for number, (name, history) in enumerate(waves.histories.items()):
-            y = lanes[name] @ own
-            y += history.level[:, None]
+        shares = np.array([shares_of(track, waves, int(seed)) for seed in seeds[some]])
+        for name, history in histories.items():
+            y = np.repeat(history.level[:, None], len(shares), axis=1)
+            for component, own in enumerate(history.waves):
+                y += own @ shares[:, component].T
             low[name][some], high[name][some] = y.min(axis=0), y.max(axis=0)
             if progress is not None:
-                done = f"realisations {first + 1} to {first + own.shape[1]} of {len(seeds)}"
-                progress(f"{done}, history {number + 1} of {len(lanes)}")
+                progress(f"realisation {first + len(shares)} of {len(seeds)}, {name}")
     static = {}
     for wheel in waves.train.wheels:
         name = f"wheel_force_z of car {wheel.car}, wheel {wheel.number}"

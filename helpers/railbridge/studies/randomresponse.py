@@ -15,19 +15,22 @@ Nothing is assumed but that train and deck are linear; that answers are Gaussian
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from .. import errors
+from ..crossing import warn_of
 from ..decks import Deck
-from ..errors import InputError, brief
+from ..errors import InputError, InputWarning, brief
 from ..irregularities import RandomTrack, TrackSpectrum
+from ..irregularities.realisations import MOST_SEED
 from ..settings import LEAD_IN_SECONDS
 from ..tracks import Track
 from ..trains import AnyTrain
+from ..vehicles import Vehicle
 from .ensembles import Ensemble, draw, shares_of
 from .peakfactors import Extreme, extreme
 from .unitwaves import UnitWaves, unit_waves
@@ -36,6 +39,14 @@ __all__ = ["RandomResponse", "random_response"]
 
 _LONGER = 1.1
 """How much longer than the way of the train the track is before it repeats itself."""
+_LANES = 256
+"""Lanes that are squared at once."""
+_LEFT = 0.1
+"""Share of a car's free vibration that may be left after a period of the track.
+
+Waves that are that far apart miss or meet a sharp resonance by chance: the variance of such a mode
+alone is wrong by up to twice this share.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +96,8 @@ class RandomResponse:
         if component is not None:
             errors.choice("component", component, self.waves.components)
             place = self.waves.components.index(component)
-            return np.sqrt(own.waves[place] ** 2 @ self._powers[place])
+            parts = self._parts(own.waves[place], self._powers[place])
+            return np.sqrt(sum(some**2 @ powers for some, powers in parts))
         return self._moments(name)[0]
 
     def spectrum_at(self, name: str, time: float) -> np.ndarray:
@@ -118,8 +130,9 @@ class RandomResponse:
     def history(self, name: str, seed: int) -> np.ndarray:
         """Return a history on the realisation of one seed, shape (n,)."""
         own = self.waves.history(name)
-        errors.integer("seed", seed, least=0)
-        shares = shares_of(self.track, self.waves, seed)
+        shares = shares_of(
+            self.track, self.waves, errors.integer("seed", seed, least=0, most=MOST_SEED)
+        )
         return own.level + np.einsum("cnk,ck->n", own.waves, shares)
 
     def on(self, spectrum: TrackSpectrum | str) -> RandomResponse:
@@ -132,6 +145,9 @@ class RandomResponse:
     ) -> Ensemble:
         """Return the extremes of many realisations, of the track's seed and those after it."""
         count = errors.integer("realisations", realisations, least=2, most=1_000_000)
+        if self.track.seed + count - 1 > MOST_SEED:
+            allowed = f"must leave room for {count} seeds up to {MOST_SEED}"
+            raise InputError("track.seed", self.track.seed, allowed, "Take a smaller one")
         seeds = self.track.seed + np.arange(count)
         return draw(self.track, self.waves, seeds, progress)
 
@@ -148,16 +164,24 @@ class RandomResponse:
         """Variance of every lane, m2, shape (components, 2 waves)."""
         return np.array([np.repeat(self.track.powers[c], 2) for c in self.waves.components])
 
+    @staticmethod
+    def _parts(waves: np.ndarray, powers: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Give some lanes after others, so that what is made of them is small beside all."""
+        for first in range(0, len(powers), _LANES):
+            some = slice(first, first + _LANES)
+            yield waves[:, some], powers[some]
+
     def _moments(self, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the standard deviations of a history and of its rate, and their correlation."""
         if name not in self._known:
             own = self.waves.history(name)
             square, of_rate, mixed = np.zeros((3, len(own.time)))
-            for waves, powers in zip(own.waves, self._powers, strict=True):
-                rates = np.gradient(waves, own.time, axis=0)
-                square += waves**2 @ powers
-                of_rate += rates**2 @ powers
-                mixed += (waves * rates) @ powers
+            for component in zip(own.waves, self._powers, strict=True):
+                for waves, powers in self._parts(*component):
+                    rates = np.gradient(waves, own.time, axis=0)
+                    square += waves**2 @ powers
+                    of_rate += rates**2 @ powers
+                    mixed += (waves * rates) @ powers
             sizes = np.sqrt(square * of_rate)
             together = np.divide(mixed, sizes, out=np.zeros_like(mixed), where=sizes > 0.0)
             self._known[name] = np.sqrt(square), np.sqrt(of_rate), np.clip(together, -1.0, 1.0)
@@ -184,7 +208,7 @@ def random_response(
     deck : Deck
     track : RandomTrack, or a spectrum or its name
         A spectrum stands for its `RandomTrack`. A period that is not given is chosen, a tenth
-        longer than run-up, deck and train.
+        longer than run-up, deck and train, and so long that cars forget what they met before it.
     quantities : sequence of str
         What is asked for at every point: displacements, accelerations, section forces.
     points : sequence of float, optional
@@ -202,7 +226,13 @@ def random_response(
     Raises
     ------
     InputError
-        What is not linear, or would not fit into memory.
+        What is not linear, or would not fit into memory; a car without damping, whose answer to
+        waves that come from far has no bound.
+
+    Warns
+    -----
+    InputWarning
+        A given period so short that the waves are too far apart for a car's resonance.
 
     Notes
     -----
@@ -210,6 +240,9 @@ def random_response(
     """
     if not isinstance(track, RandomTrack):
         track = RandomTrack(track)
+    if "components" in options:
+        remedy = "Write RandomTrack(..., components = ('vertical',))"
+        raise InputError("components", options["components"], "belong to the track", remedy)
     track = _long_enough(train, deck, track, options.get("speed"))
     waves = unit_waves(
         train, deck, track.edges, components=track.components, quantities=quantities,
@@ -223,11 +256,32 @@ def _long_enough(train: AnyTrain, deck: Deck, track: RandomTrack, speed: float) 
     speed = errors.number("speed", speed, above=0.0, unit="m/s")
     length = errors.instance("deck", deck, Deck).length + 2 * deck.reach
     length += errors.instance("train", train, AnyTrain).length
+    memory = speed * np.log(1.0 / _LEFT) * max((_memory(v) for v, _ in train.kinds()), default=0.0)
     if track.period is None:
         way = _LONGER * (LEAD_IN_SECONDS * speed + length)
-        return replace(track, period=float(10.0 * np.ceil(way / 10.0)))
+        return replace(track, period=float(10.0 * np.ceil(max(way, memory) / 10.0)))
     if track.length < length:
         allowed = f"is shorter than deck and train, {length:.4g} m: wheels would meet the same"
         allowed += " waves again"
         raise InputError("track.period", track.period, allowed, "Leave it out to have it chosen")
+    if track.length < memory:
+        text = f"= {track.period:g} m: the waves are too far apart for a car so lightly damped, "
+        text += f"{memory:.4g} m are needed. Leave it out to have it chosen."
+        warn_of([InputWarning("track.period", text)])
     return track
+
+
+def _memory(vehicle: Vehicle) -> float:
+    """Return after which time the slowest mode that wheels feel has fallen to 1 / e, s."""
+    system = vehicle.system
+    poles = np.linalg.eigvals(system.a)
+    if system.modal is not None:
+        poles, left, show, _ = system.modal
+        felt = np.abs(show).max(axis=0) * np.abs(left).max(axis=1)
+        poles = poles[felt > 1e-9 * felt.max(initial=0.0)]
+    slowest = poles[np.argmax(poles.real)]
+    if slowest.real > -1e-6 * abs(slowest):
+        allowed = f"has no damping at {abs(slowest) / (2 * np.pi):.3g} Hz: on waves that come from "
+        allowed += "far its answer has no bound"
+        raise InputError(f"vehicle {vehicle.name}", None, allowed, "Give it dampers")
+    return -1.0 / slowest.real

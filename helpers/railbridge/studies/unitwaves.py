@@ -153,8 +153,13 @@ def unit_waves(
         raise InputError("edges", edges, "must ascend and hold at least two wave numbers")
     components = _checked_components(components)
     outputs = outputs_at(deck, quantities, [deck.length / 2] if points is None else points)
+    if len({_name(output) for output in outputs}) < len(outputs):
+        raise InputError("points", points, "two of them are the same in six digits")
     base = Track() if base is None else errors.instance("base", base, Track)
     settings = _settings(train, deck, base, float(edges[-1]), options)
+    if not errors.is_list(wheels_of):
+        allowed = "must list numbers of cars"
+        raise InputError("wheels_of", wheels_of, allowed, f"Write wheels_of = ({wheels_of},)")
     kept = [train.car(number).number - 1 for number in wheels_of]
     waves = len(edges) - 1
     _refuse_size(train, deck, settings, len(components) * waves, len(outputs), kept)
@@ -163,18 +168,19 @@ def unit_waves(
     if settings.interaction == "rigid":  # the wheels do not feel the deck
         still = {id(c): _without_feeling(c) for c in steps.cars}
         steps = replace(steps, cars=tuple(still[id(c)] for c in steps.cars))
-    lanes = _lanes(coupling, (edges[:-1] + edges[1:]) / 2, components)
+    felt = [c for c in components if _is_felt(coupling, float(edges[-1]), c)]
+    lanes = _lanes(coupling, (edges[:-1] + edges[1:]) / 2, felt)
     asking = _asking(coupling, outputs)
     found, wheels = step_waves(steps, lanes, asking, settings.time_step, kept, progress)
-    histories = {}
+    histories, shape = {}, (waves, components, felt)
     for output, own in zip(outputs, found, strict=True):
-        name = f"{output.quantity} at {output.x:g} m"
-        histories[name] = _history(OUTPUTS[output.quantity], coupling.time, own, components)
+        name = _name(output)
+        histories[name] = _history(OUTPUTS[output.quantity], coupling.time, own, *shape)
     for i, own in wheels.items():
         time = coupling.time[own.first :][: own.forces.shape[1]]
         for number, forces in enumerate(own.forces, start=1):
             name = f"wheel_force_z of car {i + 1}, wheel {number}"
-            histories[name] = _history("N", time, forces, components)
+            histories[name] = _history("N", time, forces, *shape)
     return UnitWaves(train, deck, settings, frozen(edges), components, histories)
 
 
@@ -182,12 +188,43 @@ def _without_feeling(car: CarSteps) -> CarSteps:
     return replace(car, stiffness=0.0 * car.stiffness, damping=0.0 * car.damping)
 
 
+def _name(output: Output) -> str:
+    return f"{output.quantity} at {output.x:g} m"
+
+
+def _is_felt(coupling: Coupling, wavenumber: float, component: str) -> bool:
+    """Whether a component gives anything but lateral forces of a pair that cancel each other.
+
+    The two massless wheels of an axle hold the rails together against gauge: nothing else moves.
+    """
+    for c in coupling.cars:
+        forces = _forces(coupling, c.car.vehicle, np.array([wavenumber]), component)
+        forces = forces.reshape(-1, 2)
+        loads = np.tensordot(c.load_matrix, forces, 2)
+        largest = max(np.abs(loads).max(), np.abs(forces[:, 1]).max())
+        if largest > 1e-9 * np.abs(forces).max():
+            return True
+    return False
+
+
 def _history(
-    unit: str, time: np.ndarray, lanes: np.ndarray, components: Sequence[str]
+    unit: str,
+    time: np.ndarray,
+    lanes: np.ndarray,
+    count: int,
+    components: Sequence[str],
+    felt: Sequence[str],
 ) -> UnitHistory:
-    """Return a history from its lanes, shape (n, lanes)."""
-    waves = lanes[:, :-1].reshape(len(lanes), len(components), -1)
-    return UnitHistory(unit, time, lanes[:, -1].copy(), np.moveaxis(waves, 1, 0))
+    """Return a history from its lanes, shape (n, lanes), which only components that are felt have.
+
+    The others are nothing.
+    """
+    own = np.moveaxis(lanes[:, :-1].reshape(len(lanes), len(felt), 2 * count), 1, 0)
+    waves = own
+    if len(felt) < len(components):
+        waves = np.zeros((len(components), *own.shape[1:]))
+        waves[[components.index(component) for component in felt]] = own
+    return UnitHistory(unit, time, lanes[:, -1].copy(), waves)
 
 
 def _checked_components(components: Sequence[str]) -> tuple[str, ...]:
@@ -246,30 +283,25 @@ def _refuse_size(
 
 def _lanes(coupling: Coupling, wavenumbers: np.ndarray, components: Sequence[str]) -> Waves:
     """Return what every wave of every component gives the wheels on a rigid deck."""
-    settings = coupling.settings
     known: dict[int, np.ndarray] = {}
     forces = []
     for c in coupling.cars:
         vehicle = c.car.vehicle
         if id(vehicle) not in known:
-            known[id(vehicle)] = np.concatenate(
-                [
-                    wave_forces(
-                        vehicle,
-                        wavenumbers,
-                        name,
-                        settings.speed,
-                        settings.time_step,
-                        settings.excitation,
-                    )
-                    for name in components
-                ],
-                axis=1,
-            )
+            own = [_forces(coupling, vehicle, wavenumbers, name) for name in components]
+            none = np.zeros((2 * len(vehicle.contacts), 0))
+            known[id(vehicle)] = np.concatenate([none, *own], axis=1)
         entry = np.exp(-1j * np.tile(wavenumbers, len(components)) * c.car.centre)
         forces.append(np.ascontiguousarray(known[id(vehicle)] * entry))
-    rates = np.tile(wavenumbers * settings.speed, len(components))
+    rates = np.tile(wavenumbers * coupling.settings.speed, len(components))
     return Waves(rates, tuple(forces), float(coupling.time[0]))
+
+
+def _forces(
+    coupling: Coupling, vehicle: Vehicle, wavenumbers: np.ndarray, component: str
+) -> np.ndarray:
+    s = coupling.settings
+    return wave_forces(vehicle, wavenumbers, component, s.speed, s.time_step, s.excitation)
 
 
 def wave_forces(

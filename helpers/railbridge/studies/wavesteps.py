@@ -156,8 +156,8 @@ def step_waves(
             total[:] = 0.0
             for own in on:
                 total += own.meet(rolling[own.car], n, ahead, waves, turns[n])
-            np.matmul(solved[n], total[:modes], out=force)
-            still = first + n == 0  # the first sample moves nothing
+            still = first + n == 0  # the first sample moves nothing, so wheels feel nothing
+            force[:] = total[:modes] if still else solved[n] @ total[:modes]
             standing[n] = total[modes:]
             for own in on:
                 standing[n] += own.go_on(rolling[own.car], n, force, still)
@@ -203,15 +203,20 @@ class _Rolling:
 
     def __init__(self, car: CarSteps, lanes: int) -> None:
         self.onward, self.shown = _real(car)
-        self.states = len(self.onward)
-        self.both = np.zeros((self.onward.shape[1], lanes))
         self.known = np.zeros((len(self.shown), lanes))
         self.direct = car.direct
-        self.u = self.both[self.states :]
+        # Two, so that one is filled from the other without a copy.
+        self.both, self._next = np.zeros((2, self.onward.shape[1], lanes))
+
+    @property
+    def u(self) -> np.ndarray:
+        """U, shape (d, lanes)."""
+        return self.both[len(self.onward) :]
 
     def step(self) -> None:
         """Go on to the next sample."""
-        self.both[: self.states] = self.onward @ self.both
+        np.matmul(self.onward, self.both, out=self._next[: len(self.onward)])
+        self.both, self._next = self._next, self.both
 
 
 def _onward(plan: Plan) -> np.ndarray:
@@ -275,7 +280,8 @@ class _Block:
         """Let the wheels feel the deck's new forces; return what that adds to what is asked."""
         if still:
             return np.zeros((self.standing.shape[1], new.shape[1]))
-        np.add(kind.u, self.per[n - self.first] @ new, out=kind.u)
+        u = kind.u
+        u += self.per[n - self.first] @ new
         return self.standing[n - self.first] @ new
 
     def force(self, kind: _Rolling, n: int, new: np.ndarray, still: bool) -> np.ndarray:
