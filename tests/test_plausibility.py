@@ -619,6 +619,37 @@ def test_python_warns_and_says_it_in_the_remarks():
     assert rb.summarize(run, [10.0])["remarks"][0] == str(seen[0].message)
 
 
+DIFFER = {"kind": "random", "spectrum": "german-low", "period": 700.0}
+WAVE = {"kind": "harmonic", "amplitude": 1e-3, "wavelength": 14.4}
+
+
+@pytest.mark.parametrize("vertical", [DIFFER, [WAVE, DIFFER], {"left": WAVE}])
+def test_wheels_on_one_rail_of_two_that_differ_are_doubted(vertical):
+    planar = {"train.vehicle": "xia2000_planar", "track": {"vertical": vertical}}
+    (doubt,) = made("viaduct", planar).doubts
+    assert doubt.field == "track.vertical"
+    assert re.search(r"xia2000_planar stand at y = 0, on the left rail.*rails_differ", doubt.text)
+    # What is doubted is so: the planar car on the left rail answers as with that rail on both.
+    track = made("viaduct", planar).track
+    both = rb.Track(vertical=track.rail("vertical", "left"))
+    train = made("viaduct", planar).train
+    own, same = (train.rigid_forces(each, rb.Passage(20.0, 5e-3, 200))[0] for each in (track, both))
+    assert np.array_equal(own, same)
+
+
+@pytest.mark.parametrize(
+    ("vehicle", "track"),
+    [
+        ("xia2000", {"vertical": DIFFER, "lateral": DIFFER}),
+        ("xia2000_planar", {"vertical": {**DIFFER, "rails_differ": False}}),
+        ("xia2000_planar", {"vertical": {"left": WAVE, "right": WAVE}}),
+        ("xia2000_planar", {"lateral": DIFFER}),  # it does not feel that at all
+    ],
+)
+def test_rails_that_differ_below_pairs_of_wheels_pass_without_a_word(vehicle, track):
+    assert made("viaduct", {"train.vehicle": vehicle, "track": track}).doubts == []
+
+
 def test_a_beam_of_python_leaves_what_its_deck_does_not_show():
     beam = rb.Beam("beam", (20.0,), 9000.0, 2e10, torsional_stiffness=3e10, polar_inertia=50.0)
     deck = beam.deck(damping=0.01)

@@ -171,7 +171,8 @@ _NOTES = {
     "track": "# Leave [track] out for perfect rails. A list adds irregularities up; rails that "
     "differ:\n"
     '# { left = { ... }, right = { ... } }; measured: { kind = "table", x = [ ... ], r = [ ... '
-    "] }.",
+    "] };\n"
+    '# drawn from a spectrum: { kind = "random", spectrum = "german-low", seed = 1 }.',
 }
 
 
