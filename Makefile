@@ -61,6 +61,7 @@ format: env  ## put the code into the one style that lint asks for
 bench: env  ## time the paper's case, how it grows with the number of cars, and many crossings
 	$(BIN)/python benchmarks/bench.py $(ARGS)
 	$(BIN)/python benchmarks/many.py $(ARGS)
+	$(BIN)/python benchmarks/drawn.py $(ARGS)
 
 latency: env  ## time sliders from key press to new picture in a real Chromium
 	$(BIN)/python benchmarks/latency.py $(ARGS)
