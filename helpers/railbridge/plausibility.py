@@ -27,7 +27,7 @@ from .bounds import (
     worst,
 )
 from .decks import Deck
-from .errors import InputWarning
+from .errors import InputWarning, counted
 from .settings import Settings
 from .tracks import Irregularity, Notch, Rails, Track
 from .trains import AnyTrain, AxleTrain, Train
@@ -64,7 +64,8 @@ def doubts(
     scale = [] if _explained(deck) else _scale(deck, signs)
     of_train = _of_train(train)
     found = [*scale, *_damping(deck, signs, bool(scale)), *_places(deck), *of_train]
-    found += _off_axis(deck, settings) + _of_track(track) + _speed(train, settings.speed)
+    found += _off_axis(deck, settings) + _of_track(track) + _on_one_rail(train, track)
+    found += _speed(train, settings.speed)
     if not (scale or of_train or _explained(deck)):
         found += _live_sag(train, deck, signs.span)
     return tuple(found)
@@ -495,6 +496,26 @@ def _of_track(track: Track) -> list[InputWarning]:
             found += _of_wave(field, part)
         elif hasattr(part, "x") and hasattr(part, "r"):
             found += _of_table(field, part)
+    return found
+
+
+def _on_one_rail(train: AnyTrain, track: Track) -> list[InputWarning]:
+    """Doubt rails that differ below wheels at y = 0, which all stand on the left one."""
+    found = []
+    for column, (direction, apart) in enumerate((("lateral", "gauge"), ("vertical", "cross-level"))):
+        if track.rail(direction, "left") == track.rail(direction, "right"):
+            continue
+        names = [
+            vehicle.name
+            for vehicle, _ in train.kinds()
+            if all(wheel.y == 0.0 for wheel in vehicle.contacts)
+            and vehicle.contact_stiffness[:, column].any()
+        ]
+        if names:
+            text = f"has rails that differ, and all wheels of {counted(names, 4)} stand at y = 0, "
+            text += f"on the left rail: {apart} moves them. Give both rails the same, or set "
+            text += "rails_differ = false (RandomTrack: leave out cross_level and gauge)"
+            found.append(InputWarning(f"track.{direction}", text))
     return found
 
 

@@ -21,7 +21,7 @@ from jsonschema import Draft202012Validator
 
 import railbridge as rb
 from railbridge.cases import command as cli
-from railbridge.cases import pages, shelf
+from railbridge.cases import pages, shelf, speech
 
 SCHEMA = pages.schema()
 VALID = Draft202012Validator(SCHEMA)
@@ -424,8 +424,8 @@ def test_ctrl_c_while_packages_are_loaded_is_one_line(tmp_path, module):
 
 def test_progress_is_one_line_in_a_terminal(monkeypatch, capsys):
     now = [0.0]
-    monkeypatch.setattr(cli.time, "monotonic", lambda: now[0])
-    progress = cli._Progress(quiet=False)
+    monkeypatch.setattr(speech.time, "monotonic", lambda: now[0])
+    progress = speech.Progress(quiet=False)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     for now[0] in (0.5, 2.0, 2.1, 3.0):
         progress(f"iteration {now[0]}")

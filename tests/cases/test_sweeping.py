@@ -65,6 +65,70 @@ def test_each_point_is_what_the_case_gives(path, values):
         assert found["iterations"].values.ravel()[i] == run.iterations
 
 
+DRAWN = {
+    "kind": "random", "spectrum": "german-low", "band": [6.0, 60.0], "period": 400.0,
+    "rails_differ": False, "seed": 0,
+}  # fmt: skip
+ROUGH = {
+    **BASE, "track": {"vertical": DRAWN},
+    "run": {"speed": 40.0, "time_step": 4e-3, "tail": 0.1},
+}  # fmt: skip
+SEEDS = "track.vertical.seed"
+
+
+@pytest.mark.parametrize("interaction", ["iterate", "direct"])
+def test_a_sweep_over_seeds_is_a_run_of_each(interaction):
+    base = {**ROUGH, "run": {**ROUGH["run"], "interaction": interaction}}
+    measure = ["displacement_z", "wheel_unloading", "wheel_force_z"]
+    found = rb.sweep(base, {SEEDS: range(3, 7)}, measure=measure)
+    assert found.seed.values.tolist() == [3, 4, 5, 6]
+    assert not any(found.message.values)
+    for seed in (3, 6):
+        own, run = found.sel(seed=seed), rb.case(base, {SEEDS: seed}).run()
+        value, _ = run.displacement(6.0).extreme("displacement_z")
+        assert own.displacement_z.item() == pytest.approx(abs(value), rel=1e-9)
+        assert own.wheel_unloading.item() == pytest.approx(run.wheel_unloading.max(), rel=1e-9)
+        assert own.wheel_force_z.item() == pytest.approx(
+            np.abs(run.wheel_forces[:, 1]).max(), rel=1e-9
+        )
+    assert len(set(found.wheel_unloading.values.tolist())) == 4
+
+
+def test_seeds_side_by_side_are_those_of_single_runs():
+    # So many that cars are computed side by side, in steps a little finer.
+    base = {**ROUGH, "run": {**ROUGH["run"], "iterations": 3}}
+    found = rb.sweep(base, {SEEDS: range(1, 131)}, measure=["wheel_unloading"])
+    for seed in (1, 77, 130):
+        run = rb.case(base, {SEEDS: seed}).compute()
+        own = found.wheel_unloading.sel(seed=seed).item()
+        assert own == pytest.approx(run.wheel_unloading.max(), rel=1e-3)
+
+
+def test_statistics_of_a_sweep_over_seeds():
+    found = rb.sweep(ROUGH, {SEEDS: {"from": 1, "to": 6, "step": 1}}, measure=["wheel_unloading"])
+    told = rb.studies.describe(found["wheel_unloading"])
+    assert told.mean == pytest.approx(found["wheel_unloading"].values.mean(), rel=1e-14)
+    worst = found.seed.values[told.largest_index]
+    assert found["wheel_unloading"].sel(seed=worst).item() == told.largest
+
+
+def test_keys_behind_commas_take_the_same_value():
+    train = {"vehicle": "xia2000"}
+    base = {**ROUGH, "train": train, "track": {"vertical": DRAWN, "lateral": DRAWN}}
+    both = "track.vertical.seed, track.lateral.seed"
+    found = rb.sweep(base, {both: [2, 5], "run.speed": SPEEDS}, measure=["wheel_unloading"])
+    assert found.wheel_unloading.dims == ("seed", "speed")
+    assert found.seed.attrs["path"] == both
+    for seed in (2, 5):
+        changes = dict.fromkeys(both.split(", "), seed)
+        run = rb.case(base, {**changes, "run.speed": 30.0}).run()
+        own = found.wheel_unloading.sel(seed=seed, speed=30.0).item()
+        assert own == pytest.approx(run.wheel_unloading.max(), rel=1e-9)
+    # Two dimensions multiply.
+    apart = rb.sweep(base, {SEEDS: [2, 5], "track.lateral.seed": [2, 5]}, measure=["iterations"])
+    assert apart["iterations"].shape == (2, 2)
+
+
 @pytest.mark.parametrize(
     ("over", "more", "why"),
     [
@@ -73,6 +137,10 @@ def test_each_point_is_what_the_case_gives(path, values):
         ({"run.speed": [-1.0, 30.0]}, {}, r"run.speed = -1"), ([1], {}, "table of values"),
         ({"run.speed": [30.0], "train.cars": [1]}, {"trains": ["HSLM-A1"]}, "train.cars"),
         ({"run.speed": SPEEDS}, {"measure": []}, "at least one"),
+        ({"run.speed, run.sped": SPEEDS}, {}, "run.sped.*'speed'"),
+        ({"run.speed, ": SPEEDS}, {}, "no key beside a comma"),
+        ({"run.speed, run.tail": SPEEDS, "run.tail": [0.1]}, {}, "run.tail.*twice"),
+        ({"run.speed, train.cars": [1, 2]}, {"trains": ["HSLM-A1"]}, "train.cars"),
         ({"run.speed": SPEEDS}, {"measure": ["displacement_w"]}, "displacement_"),
         ({"run.speed": SPEEDS}, {"trains": ["HSLM-A11"]}, "HSLM-A1"),
         ({"run.speed": SPEEDS}, {"trains": {"t": {"axles": [0.0, 3.0, 3.0], "loads": [1e5] * 3}}},

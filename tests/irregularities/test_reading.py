@@ -104,8 +104,11 @@ def test_the_two_families_differ_by_as_much_as_is_said():
         ("", "must be a name or a path. Shipped: chinese-ballastless, "),
         (None, "must be a name or a path"),
         (5, "must be a name or a path"),
-        ("mine.toml", "mine.toml: no such file"),
-        ("nowhere/mine", "mine: no such file"),
+        ("mine.toml", "spectrum = 'mine.toml': no such file. Looked in "),
+        ("nowhere/mine.toml", "spectrum = 'nowhere/mine.toml': no such file. Looked in nowhere"),
+        ("nowhere/mine", "spectrum = 'nowhere/mine': spectrum files are TOML"),
+        ("mine.csv", "spectrum = 'mine.csv': spectrum files are TOML"),
+        ("a\0b.toml", "spectrum = .*: (cannot be read|no such file)"),
     ],
 )
 def test_names_that_are_refused(source, message):
@@ -227,13 +230,13 @@ def test_a_file_without_components_folders_and_large_files(tmp_path):
     with pytest.raises(InputError, match="vertical: is missing. Give at least one component"):
         rb.spectrum(path)
     path.write_text("#" * 1_000_001)
-    with pytest.raises(InputError, match="mine.toml: is too large"):
+    with pytest.raises(InputError, match="^spectrum = .*: is too large"):
         rb.spectrum(path)
     path.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(InputError, match="mine.toml: is not a valid TOML file"):
         rb.spectrum(path)
     (tmp_path / "folder.toml").mkdir()
-    with pytest.raises(InputError, match="folder.toml: must be a regular file"):
+    with pytest.raises(InputError, match="^spectrum = .*: must be a regular file"):
         rb.spectrum(tmp_path / "folder.toml")
 
 

@@ -189,3 +189,21 @@ def test_the_table_bears_the_unit():
     assert table.loc["largest", "value (kN)"] == 99.0 and table.loc["largest", "realisation"] == 99
     assert table.loc["95 % lie below", "low (kN)"] == 89.0
     assert list(describe([1.0, 2.0]).to_frame().columns)[0] == "value"
+
+
+def test_labelled_arrays_of_one_dimension_are_taken_with_their_unit():
+    xr = pytest.importorskip("xarray")
+    values = [3.0, 5.0, 4.0, 8.0]
+    one = xr.DataArray(values, dims="seed", attrs={"units": "kN"})
+    assert describe(one).unit == "kN" and describe(one, unit="t").unit == "t"
+    assert describe(one).mean == describe(values).mean
+    place = xr.DataArray(np.reshape(values, (4, 1)), dims=("seed", "x"), attrs={"units": "-"})
+    assert describe(place).mean == 5.0 and describe(place).unit == ""
+    assert exceedance(place, 4.5).above == 2
+    with pytest.raises(InputError, match="values: must be of one dimension, it has seed, x"):
+        describe(xr.DataArray(np.ones((4, 2)), dims=("seed", "x")))
+    with pytest.raises(InputError, match="must be of one dimension, it has none"):
+        describe(xr.DataArray(1.0))
+    with pytest.raises(InputError, match="1 of 4 crossings have no numbers.*dropna"):
+        describe(one.where(one > 3.5))
+    assert describe(one.where(one > 3.5).dropna("seed")).count == 3

@@ -12,10 +12,8 @@ import argparse
 import json
 import shlex
 import sys
-import time
-import tomllib
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -23,15 +21,15 @@ import numpy as np
 
 from ..crossing import NotConvergedError
 from ..decks import Deck
-from ..errors import InputError, InputWarning, Remark, integer, printable, within
+from ..errors import InputError, InputWarning, integer, printable, within
 from ..lessons import exercises, marking
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
-from . import copies, pages, shelf, staging, studying, tables
+from . import changing, copies, drawing, pages, shelf, staging, studying, tables
 from .axletrains import train_list
 from .definition import Case, case
-from .speech import note, nowhere, say, tell
+from .speech import Progress, nowhere, say, tell, warn
 from .summary import histories, to_json
 
 __all__ = ["main"]
@@ -57,6 +55,8 @@ examples:
                                              the largest response to ten trains over speeds
   railbridge new --study study.toml          write a commented study file
   railbridge sweep study.toml --out study    a case over values of any of its keys
+  railbridge ensemble case.toml --realisations 200 --out drawn
+                                             a case whose track is random, drawn many times
   railbridge list                            vehicles, decks and cases that are shipped
   railbridge copy-notebooks my-course        the lessons as copies of your own; done again, it
                                              renews those that are not edited
@@ -151,20 +151,7 @@ def _parser() -> argparse.ArgumentParser:
     raw = argparse.RawDescriptionHelpFormatter
     parser = _Parser("railbridge", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=raw)
     commands = parser.add_subparsers(required=True, metavar="command")
-    changes = argparse.ArgumentParser(add_help=False)
-    changes.add_argument("case", help="a case file (.toml), or the name of a shipped case")
-    changes.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        help="change a key, as in run.speed=30; may be repeated; paths as in the file",
-    )
-    changes.add_argument(
-        "--strict",
-        action="store_true",
-        help="refuse what is unlikely to be meant (exit code 2), instead of a warning",
-    )
+    changes = changing.options()
     run = add(
         "run",
         _run,
@@ -244,6 +231,7 @@ def _parser() -> argparse.ArgumentParser:
         "--jobs", type=int, default=2, help="how many run at once (default %(default)s)"
     )
     studying.add_commands(add)
+    drawing.add_command(add, changes)
     add(
         "schema",
         _schema,
@@ -252,27 +240,12 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _case(given: argparse.Namespace) -> Case:
-    changes = {}
-    for change in given.set:
-        key, mark, value = change.partition("=")
-        if not mark or not key.strip():
-            raise InputError(
-                "--set", change, "must be KEY=VALUE", "For instance --set run.speed=30"
-            )
-        try:
-            changes[key.strip()] = tomllib.loads(f"value = {value}")["value"]
-        except (ValueError, RecursionError):
-            changes[key.strip()] = value.strip()  # a text without its quotes
-    return case(given.case, changes)
-
-
 def _run(given: argparse.Namespace) -> int:
-    loaded = _case(given)
-    doubts = _said_doubts(loaded, given.strict)
+    loaded = changing.changed_case(given)
+    doubts = changing.said_doubts(loaded, given.strict)
     if doubts and given.strict:
         return 2
-    progress = _Progress(given.quiet)
+    progress = Progress(given.quiet)
     with staging.files(given.out, "--out", FILES) as folder:
         code = 0
         try:
@@ -281,7 +254,7 @@ def _run(given: argparse.Namespace) -> int:
             run, code, message = error.run, 3, str(error)
         _write(folder, loaded, run, progress, not given.no_histories)
     progress.end()
-    _warn(remark for remark in loaded.remarks(run) if str(remark) not in doubts)
+    warn(remark for remark in loaded.remarks(run) if str(remark) not in doubts)
     if code:
         say(f"{message} What there is was written to {given.out}.")
     elif unsettled(run):
@@ -291,24 +264,6 @@ def _run(given: argparse.Namespace) -> int:
     elif not given.quiet:
         say(f"{_headline(loaded, run)}; written to {given.out}")
     return code
-
-
-def _said_doubts(loaded: Case, strict: bool) -> set[str]:
-    """Print a line for whatever is unlikely to be meant, and return these lines."""
-    doubts = [remark for remark in loaded.doubts if isinstance(remark, InputWarning)]
-    if strict:
-        for doubt in doubts:
-            say(str(doubt))
-    else:
-        _warn(doubts)
-    return {str(doubt) for doubt in doubts}
-
-
-def _warn(remarks: Iterable[Remark]) -> None:
-    """Print a line for every remark that is also warned of."""
-    for remark in remarks:
-        if remark.warned:
-            say(f"warning: {remark}")
 
 
 def _headline(loaded: Case, run: Crossing) -> str:
@@ -337,7 +292,7 @@ def _worst(loaded: Case, run: Crossing) -> tuple[float, float]:
 
 
 def _write(
-    folder: Path, loaded: Case, run: Crossing, progress: _Progress, with_histories: bool
+    folder: Path, loaded: Case, run: Crossing, progress: Progress, with_histories: bool
 ) -> None:
     if with_histories:
         for table in histories(run, loaded.points):
@@ -354,8 +309,8 @@ def _write(
 def _check(given: argparse.Namespace) -> int:
     if _is_deck(given.case):
         return _check_deck(given)
-    loaded = _case(given)
-    if _said_doubts(loaded, given.strict) and given.strict:
+    loaded = changing.changed_case(given)
+    if changing.said_doubts(loaded, given.strict) and given.strict:
         return 2
     needed = bytes_needed(loaded.train, loaded.deck, loaded.settings, len(loaded.points))
     s = loaded.settings
@@ -499,7 +454,7 @@ def _mark(given: argparse.Namespace) -> int:
     handed_in = marking.submissions(Path(given.folder), given.only)
     pages = {each.page for each in handed_in}
     asked = [e for e in exercises().values() if e.page in pages]
-    progress = _Progress(quiet=False)
+    progress = Progress(quiet=False)
     rows = marking.marked(handed_in, jobs, progress=progress)
     progress.end()
     _write_new(Path(given.out), marking.table(rows, asked))
@@ -513,36 +468,6 @@ def _mark(given: argparse.Namespace) -> int:
 
 def _count(number: int, thing: str) -> str:
     return f"{number} {thing}" + "s" * (number != 1)
-
-
-class _Progress:
-    """One line on stderr that tells how far a long run is.
-
-    Overwritten in a terminal, once in ten seconds elsewhere.
-    """
-
-    def __init__(self, quiet: bool) -> None:
-        self.quiet = quiet
-        self.start = self.last = time.monotonic()
-        self.shown = 0
-
-    def __call__(self, text: str) -> None:
-        now, terminal = time.monotonic(), sys.stderr.isatty()
-        if self.quiet or now - self.last < (0.2 if terminal else 10.0) or now - self.start < 1.0:
-            return
-        self.last = now
-        line = f"railbridge: {printable(text)}, {now - self.start:.0f} s"
-        if terminal:
-            note("\r" + line.ljust(self.shown), end="")
-            self.shown = len(line)
-        else:
-            note(line)
-
-    def end(self) -> None:
-        """Clear the line."""
-        if self.shown:
-            note("\r" + " " * self.shown + "\r", end="")
-            self.shown = 0
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ key, as in ``run.speed``.
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import InitVar, dataclass, field, fields
 from functools import cached_property
@@ -26,9 +26,11 @@ from ..notices import remarks
 from ..plausibility import doubts
 from ..results import Crossing
 from ..settings import Options, Settings, bytes_needed, check, refuse_bytes
+from ..studies import RandomResponse, random_response
 from ..tracks import Track
 from ..trains import AnyTrain
 from . import objects, shelf, tables
+from .randomness import certain_part, random_track
 from .summary import summarize
 from .tabletypes import checked
 
@@ -136,6 +138,47 @@ class Case:
             return compute(self.train, self.deck, self.track, self.settings, progress)
         except NotConvergedError as error:
             raise NotConvergedError(error.run, "run.") from None
+
+    def random_response(
+        self,
+        quantities: Sequence[str] = ("displacement_z", "acceleration_z"),
+        points: Sequence[float] | None = None,
+        wheels_of: Sequence[int] = (),
+        progress: Callable[[str], None] | None = None,
+    ) -> RandomResponse:
+        """Compute the crossing of all realisations of a track with ``kind = "random"`` at once.
+
+        What else is in the track is certain. The realisation of a seed is what `run` gives with
+        that seed in both directions, but for the run-up: here the waves come from far.
+
+        Parameters
+        ----------
+        quantities : sequence of str
+            At every point.
+        points : sequence of float, optional
+            m along the deck; those of the case if not given.
+        wheels_of : sequence of int
+            Cars whose vertical wheel forces are asked for, too; from 1.
+        progress : function of one text, optional
+
+        Returns
+        -------
+        RandomResponse
+            See `studies.random_response`.
+
+        Raises
+        ------
+        InputError
+            As `randomness.random_track` and `studies.random_response`.
+        """
+        track, places = random_track(self.content)
+        own = {"edges": f"{places[0]}.band", "track": places[0]}
+        with within(names=IN_A_CASE | own):
+            return random_response(
+                self.train, self.deck, track, quantities=quantities,
+                points=self.points if points is None else points, wheels_of=wheels_of,
+                base=certain_part(self.track), progress=progress, **self.options,
+            )  # fmt: skip
 
     @property
     def doubts(self) -> list[Remark]:

@@ -105,8 +105,8 @@ def _rail(deck: Deck) -> dict[str, float] | None:
 
 
 def to_json(summary: dict[str, Any]) -> str:
-    """Return the summary as the text of ``summary.json``."""
-    return json.dumps(summary, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
+    """Return a summary as the text of ``summary.json``; what is not finite becomes null."""
+    return json.dumps(_plain(summary), indent=1, allow_nan=False, ensure_ascii=False) + "\n"
 
 
 def _passes(run: Crossing) -> int:

@@ -197,7 +197,7 @@ def planned(
         raise InputError("over", over, "must be a table of values by path", remedy)
     by_path = {path: values_of(f"over[{path}]", given) for path, given in over.items()}
     named = trains_of_case(trains)
-    for path in by_path:
+    for path in _each_once(by_path):
         if named and path.split(".")[0] == "train":
             raise InputError("over", path, "a key of the train, and trains are given too")
     dimensions = [Dimension("train", list(named))] if named else []
@@ -282,11 +282,16 @@ class _Cases:
         self._known: dict[tuple, Case] = {}
         # What costs most is changed first.
         order = {"deck": 0, "train": 1, "track": 2}
-        self._paths = sorted(by_path, key=lambda path: order.get(path.split(".")[0], 3))
+        paths = [path for several in by_path for path in _paths(several)]
+        self._paths = sorted(paths, key=lambda path: order.get(path.split(".")[0], 3))
 
     def at(self, way: int, values: Sequence[Any]) -> Case:
         """Return the case of a point."""
-        own = dict(zip(self.by_path, values, strict=True))
+        own = {
+            path: value
+            for several, value in zip(self.by_path, values, strict=True)
+            for path in _paths(several)
+        }
         place: tuple = (way,)
         current = self._made(place, self.base, self.ways[way])
         for section, paths in itertools.groupby(self._paths, lambda path: path.split(".")[0]):
@@ -326,9 +331,27 @@ class _Cases:
         for way in self.ways:
             if way:
                 self.base.replace(way)
-        for path, values in self.by_path.items():
+        for several, values in self.by_path.items():
             for value in values:
-                self.base.replace({path: value})
+                self.base.replace(dict.fromkeys(_paths(several), value))
+
+
+def _paths(several: str) -> list[str]:
+    """Return the keys of one dimension: those that take the same value stand behind commas."""
+    return [path.strip() for path in several.split(",")]
+
+
+def _each_once(over: Iterable[str]) -> list[str]:
+    """Return all keys of a study; refuse one that is empty or varies twice."""
+    found: list[str] = []
+    for several in over:
+        for path in _paths(errors.text("over", several)):
+            if not path:
+                raise InputError("over", several, "has no key beside a comma", "Remove the comma")
+            if path in found:
+                raise InputError("over", path, "varies twice", "Name each key once")
+            found.append(path)
+    return found
 
 
 def _dimension(
@@ -397,7 +420,9 @@ def sweep(
     source : Case, or what `case` takes
     over : mapping
         Values by path: ``{"run.speed": [20.0, 30.0]}``; also ``{"from": 20.0, "to": 80.0, "step":
-        2.0}`` or with ``count``. Any key of the case.
+        2.0}`` or with ``count``. Any key of the case; keys that take the same value at the same
+        time stand together, parted by commas: ``{"track.vertical.seed, track.lateral.seed":
+        range(1, 201)}``.
     trains : name, file, table or AxleTrain, several of them, or a mapping of these, optional
         Instead of the case's own train, on its track; ``HSLM-A`` is all ten. For bare axle loads
         ``run.loads`` and the iteration are left out: they have nothing to condense or to iterate.

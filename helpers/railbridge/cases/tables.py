@@ -138,7 +138,7 @@ RANDOM = table(
         "(D1 of EN 13848) is this: of vertical level, or of alignment below track.lateral.",
     ),
     rails_differ=key(
-        boolean,
+        boolean(),
         "Whether cross-level (below track.lateral gauge) moves the rails apart, where the spectrum "
         "has it.",
         True,

@@ -9,7 +9,7 @@ import numpy as np
 
 from .formulas import Formula, power_integral
 
-__all__ = ["FormulaDensity", "TableDensity"]
+__all__ = ["FormulaDensity", "ScaledDensity", "TableDensity"]
 
 _TWO_PI = 2 * np.pi
 
@@ -73,3 +73,25 @@ class TableDensity:
         x = np.concatenate([[low], self.wavenumber[inside], [high]])
         s = self.value(x)
         return float(np.sum(power_integral(x[:-1], x[1:], s[:-1], s[1:])))
+
+
+@dataclass(frozen=True, eq=False)
+class ScaledDensity:
+    """Another density times a factor, where the components of a spectrum have different ones.
+
+    Attributes
+    ----------
+    density : FormulaDensity or TableDensity
+    factor : float
+    """
+
+    density: FormulaDensity | TableDensity
+    factor: float
+
+    def value(self, wavenumber: np.ndarray) -> np.ndarray:
+        """Return the density per rad/m at wave numbers in rad/m."""
+        return self.factor * self.density.value(wavenumber)
+
+    def integral(self, low: float, high: float) -> float:
+        """Return its integral from one wave number to another, rad/m."""
+        return self.factor * self.density.integral(low, high)

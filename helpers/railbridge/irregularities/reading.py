@@ -56,10 +56,11 @@ def spectrum(source: str | Path) -> TrackSpectrum:
         remedy = "Shipped: " + ", ".join(spectrum_names())
         raise InputError("spectrum", source, "must be a name or a path", remedy)
     path = Path(source)
-    if path.suffix != ".toml" and len(path.parts) == 1:
+    if not path.suffix and len(path.parts) == 1:
         path = _shipped(str(source))
+    content = _read(path, str(source))
     with within(source=path.name):
-        return _spectrum(path.stem, _read(path))
+        return _spectrum(path.stem, _parsed(content))
 
 
 def spectrum_names() -> list[str]:
@@ -87,18 +88,29 @@ def _shipped(name: str) -> Path:
     raise InputError("spectrum", name, "no such spectrum", did_you_mean(name, names))
 
 
-def _read(path: Path) -> dict[str, Any]:
+def _read(path: Path, given: str) -> bytes:
+    """Return what stands in a file; whoever named it is told where it cannot be read."""
+    remedy = ""
     try:
-        if not path.is_file():
-            why = "no such file" if not path.exists() else "must be a regular file"
-            raise InputError("", None, why)
-        if path.stat().st_size > LARGEST:
-            raise InputError("", None, "is too large", "Is it the right file?")
-        return tomllib.loads(path.read_bytes().decode("utf-8-sig"))
-    except OSError as error:
-        raise InputError("", None, f"cannot be read ({error.strerror})") from None
-    except InputError:
-        raise
+        if path.suffix != ".toml":
+            why = "spectrum files are TOML"
+            remedy = "Write the path of a .toml file, or a shipped name without an ending"
+        elif not path.exists():
+            why, remedy = "no such file", f"Looked in {path.parent.resolve().name or 'the root'}"
+        elif not path.is_file():
+            why = "must be a regular file"
+        elif path.stat().st_size > LARGEST:
+            why, remedy = "is too large", "Is it the right file?"
+        else:
+            return path.read_bytes()
+    except (OSError, ValueError) as error:  # a name that no file system has is a ValueError
+        why = f"cannot be read ({getattr(error, 'strerror', None) or error})"
+    raise InputError("spectrum", given, why, remedy)
+
+
+def _parsed(content: bytes) -> dict[str, Any]:
+    try:
+        return tomllib.loads(content.decode("utf-8-sig"))
     except (ValueError, RecursionError):  # UnicodeDecodeError and TOMLDecodeError are ValueErrors
         raise InputError("", None, "is not a valid TOML file") from None
 

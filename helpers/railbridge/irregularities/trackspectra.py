@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, Remark, boolean, choice, frozen, number, numbers, table, text
-from .densities import FormulaDensity, TableDensity
+from .densities import FormulaDensity, ScaledDensity, TableDensity
 from .formulas import COMPONENTS
 
 __all__ = ["D1", "D2", "D3", "GRADES", "Component", "Scaling", "TrackSpectrum"]
@@ -43,7 +43,7 @@ class Component:
 
     Attributes
     ----------
-    density : FormulaDensity or TableDensity
+    density : FormulaDensity, TableDensity or ScaledDensity
     quantity : {"height", "angle"}
         An angle is the roll of the track, rad.
     grade : str
@@ -51,7 +51,7 @@ class Component:
     source : str
     """
 
-    density: FormulaDensity | TableDensity
+    density: FormulaDensity | TableDensity | ScaledDensity
     quantity: str = "height"
     grade: str = "own"
     source: str = ""

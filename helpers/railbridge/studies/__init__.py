@@ -8,7 +8,7 @@ from .datasets import Dimension, dataset, table
 from .engine import NUMBERS, Asked, Job, Row, asked_of, respond
 from .ensembles import Ensemble
 from .envelopes import QUANTITIES, checked_speeds, named_trains, signature, speed_envelope
-from .extras import needed
+from .extras import needed, program_version
 from .fingerprints import fingerprint, print_of_crossing, print_of_deck
 from .lanes import WIDTH, advance_of, eligible
 from .mixtures import WORTH, mixture_key
@@ -37,7 +37,8 @@ __all__ = [
     "WorkerDiedError", "advance_of", "asked_of", "carry_out", "checked_speeds", "chunked",
     "dataset", "davenport", "describe", "eligible", "exceedance", "extreme", "fingerprint",
     "mixture_key", "named_trains", "needed", "needed_for_mean", "needed_for_percentile",
-    "outputs_at", "print_of_crossing", "print_of_deck", "random_response", "remaining",
-    "repeated_distance", "residual_acceleration", "resonance_speeds", "respond", "signature",
-    "speed_envelope", "starting_speeds", "table", "unit_waves", "upcrossing_rate", "wave_forces",
+    "outputs_at", "print_of_crossing", "print_of_deck", "program_version", "random_response",
+    "remaining", "repeated_distance", "residual_acceleration", "resonance_speeds", "respond",
+    "signature", "speed_envelope", "starting_speeds", "table", "unit_waves", "upcrossing_rate",
+    "wave_forces",
 ]  # fmt: skip

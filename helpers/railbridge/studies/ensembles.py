@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -108,7 +108,12 @@ def shares_of(track: RandomTrack, waves: UnitWaves, seed: int) -> np.ndarray:
     return np.array(result)
 
 
-def draw(track: RandomTrack, waves: UnitWaves, seeds: np.ndarray) -> Ensemble:
+def draw(
+    track: RandomTrack,
+    waves: UnitWaves,
+    seeds: np.ndarray,
+    progress: Callable[[str], None] | None = None,
+) -> Ensemble:
     """Return the extremes of realisations: products of matrices.
 
     Parameters
@@ -116,6 +121,7 @@ def draw(track: RandomTrack, waves: UnitWaves, seeds: np.ndarray) -> Ensemble:
     track : RandomTrack
     waves : UnitWaves
     seeds : ndarray of int, shape (realisations,)
+    progress : function of one text, optional
     """
     histories = waves.histories
     lanes = len(waves.components) * 2 * len(waves.wavenumbers)
@@ -130,6 +136,8 @@ def draw(track: RandomTrack, waves: UnitWaves, seeds: np.ndarray) -> Ensemble:
             for component, own in enumerate(history.waves):
                 y += own @ shares[:, component].T
             low[name][some], high[name][some] = y.min(axis=0), y.max(axis=0)
+            if progress is not None:
+                progress(f"realisation {first + len(shares)} of {len(seeds)}, {name}")
     static = {}
     for wheel in waves.train.wheels:
         name = f"wheel_force_z of car {wheel.car}, wheel {wheel.number}"

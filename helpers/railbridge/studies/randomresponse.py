@@ -149,14 +149,16 @@ class RandomResponse:
         track = replace(self.track, spectrum=spectrum, components=self.waves.components)
         return RandomResponse(track, self.waves)
 
-    def ensemble(self, realisations: int = 200) -> Ensemble:
+    def ensemble(
+        self, realisations: int = 200, progress: Callable[[str], None] | None = None
+    ) -> Ensemble:
         """Return the extremes of many realisations, of the track's seed and those after it."""
         count = errors.integer("realisations", realisations, least=2, most=1_000_000)
         if self.track.seed + count - 1 > MOST_SEED:
             allowed = f"must leave room for {count} seeds up to {MOST_SEED}"
             raise InputError("track.seed", self.track.seed, allowed, "Take a smaller one")
         seeds = self.track.seed + np.arange(count)
-        return draw(self.track, self.waves, seeds)
+        return draw(self.track, self.waves, seeds, progress)
 
     def to_frame(self, name: str):
         """Return a pandas DataFrame: mean and standard deviation by time."""

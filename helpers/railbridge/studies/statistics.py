@@ -171,14 +171,15 @@ def describe(
 
     Parameters
     ----------
-    values : array_like, shape (N,)
-        One number a realisation, two or more.
+    values : array_like, shape (N,), or xarray.DataArray of one dimension
+        One number a realisation, two or more: also ``found["wheel_unloading"]`` of a sweep over
+        seeds. Dimensions of length one do not count.
     confidence : float
         Above 0, below 1.
     percentiles : sequence of float
         Percent, above 0, below 100.
     unit : str
-        Of the values, for tables.
+        Of the values, for tables; a DataArray brings its own.
 
     Raises
     ------
@@ -190,6 +191,7 @@ def describe(
     Analysis 50, pp. 775-782; percentiles, W. R. Thompson (1936), Annals of Mathematical Statistics
     7, pp. 122-128; share below the largest, Wilks (1941), Annals of Mathematical Statistics 12.
     """
+    unit = unit or _unit_of(values)
     values = _realisations(values)
     confidence = _inside("confidence", confidence, 1.0, "Give 0.95 for 95 %")
     percents = [
@@ -342,12 +344,34 @@ def needed_for_percentile(
 
 def _realisations(values: Any, field: str = "values") -> np.ndarray:
     """Return the numbers as an array of our own, two or more."""
+    if hasattr(values, "dims") and hasattr(values, "to_numpy"):
+        values = _of_labelled(field, values)
     found = numbers(field, values)
     if len(found) < 2:
         raise InputError(
             field, values, "must hold two realisations or more", "One realisation proves nothing"
         )
     return found
+
+
+def _of_labelled(field: str, values: Any) -> np.ndarray:
+    """Return the numbers of a DataArray; refuse what is of several dimensions or has no numbers."""
+    found = np.squeeze(values.to_numpy())
+    if found.ndim != 1:
+        names = ", ".join(map(str, values.dims))
+        allowed = f"must be of one dimension, it has {names or 'none'}"
+        raise InputError(field, None, allowed, "Choose of the others: .sel(x=18.0)")
+    missing = int(np.isnan(found).sum()) if found.dtype.kind == "f" else 0
+    if missing:
+        allowed = f"{missing} of {len(found)} crossings have no numbers, see message"
+        raise InputError(field, None, allowed, "Find out why, then leave them out by .dropna()")
+    return found
+
+
+def _unit_of(values: Any) -> str:
+    """Return the unit that a DataArray says."""
+    unit = getattr(values, "attrs", {}).get("units", "")
+    return "" if unit == "-" else unit
 
 
 def _inside(field: str, value: Any, below: float, remedy: str) -> float:

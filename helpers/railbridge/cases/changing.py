@@ -1,0 +1,58 @@
+"""What commands that take a case share: its keys changed on the command line, its doubts said."""
+
+from __future__ import annotations
+
+import argparse
+import tomllib
+
+from ..errors import InputError, InputWarning
+from .definition import Case, case
+from .speech import say, warn
+
+__all__ = ["changed_case", "options", "said_doubts"]
+
+
+def options() -> argparse.ArgumentParser:
+    """Return the parser of what these commands have alike, as a parent of theirs."""
+    changes = argparse.ArgumentParser(add_help=False)
+    changes.add_argument("case", help="a case file (.toml), or the name of a shipped case")
+    changes.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        help="change a key, as in run.speed=30; may be repeated; paths as in the file",
+    )
+    changes.add_argument(
+        "--strict",
+        action="store_true",
+        help="refuse what is unlikely to be meant (exit code 2), instead of a warning",
+    )
+    return changes
+
+
+def changed_case(given: argparse.Namespace) -> Case:
+    """Return the case that was asked for, with the keys of ``--set``."""
+    changes = {}
+    for change in given.set:
+        key, mark, value = change.partition("=")
+        if not mark or not key.strip():
+            raise InputError(
+                "--set", change, "must be KEY=VALUE", "For instance --set run.speed=30"
+            )
+        try:
+            changes[key.strip()] = tomllib.loads(f"value = {value}")["value"]
+        except (ValueError, RecursionError):
+            changes[key.strip()] = value.strip()  # a text without its quotes
+    return case(given.case, changes)
+
+
+def said_doubts(loaded: Case, strict: bool) -> set[str]:
+    """Print a line for whatever is unlikely to be meant, and return these lines."""
+    doubts = [remark for remark in loaded.doubts if isinstance(remark, InputWarning)]
+    if strict:
+        for doubt in doubts:
+            say(str(doubt))
+    else:
+        warn(doubts)
+    return {str(doubt) for doubt in doubts}
