@@ -321,3 +321,67 @@ def test_condensed_loads_of_wheels_on_stiff_contacts_do_blow_up(monkeypatch):
         warnings.simplefilter("ignore")
         run = rb.cross(rb.Train(WHEELED), DECK, **options)
     assert np.abs(run.wheel_forces).max() > 1e3 * WHEELED.weight
+
+
+class Rail:
+    """A level rail that is known between two places, and that repeats."""
+
+    shortest = np.inf
+
+    def __init__(self, extent=None, period=None):
+        self.extent, self.period = extent, period
+
+    value = slope = staticmethod(np.zeros_like)
+
+
+def last_place(train, **options):
+    """The last place, m, that wheels are asked for."""
+    met = []
+
+    class Watched(Rail):
+        def value(self, x):
+            met.extend(x)
+            return np.zeros_like(x)
+
+    rb.cross(train, DECK, rb.Track(vertical=Watched()), **options)
+    return max(met)
+
+
+@pytest.mark.parametrize("excitation", ["wheels", "car"])
+@pytest.mark.parametrize("lead_in", [40.0, 0.0])
+def test_a_rail_must_be_known_wherever_wheels_go(excitation, lead_in):
+    train = rb.Train(CAR, cars=2, car_spacing=22.5)
+    options = {"speed": 20.0, "lead_in": lead_in, "excitation": excitation, "tail": 0.5}
+    last = last_place(train, **options)
+    assert last >= DECK.length + train.length + 0.5 * 20.0
+    for direction in ("vertical", "lateral"):
+        check(train, DECK, rb.Track(**{direction: Rail((-lead_in, last))}), **options)
+        for extent in [(-lead_in + 0.01, last), (-lead_in, last - 0.05)]:
+            with pytest.raises(rb.InputError) as caught:
+                check(train, DECK, rb.Track(**{direction: Rail(extent)}), **options)
+            words = f"track.{direction}: is known from x = {extent[0]:.6g} m to {extent[1]:.6g} m, "
+            words += f"and wheels need it from {-lead_in:.6g} m to {last:.6g} m"
+            assert str(caught.value).startswith(words)
+            assert "shorter lead_in" in str(caught.value) and "origin" in str(caught.value)
+
+
+def test_a_rail_that_is_too_short_is_named():
+    train, short = rb.Train(CAR), Rail((-200.0, 20.0))
+    for track, field in [
+        (rb.Track(vertical=rb.Rails(None, short)), "track.vertical.right"),
+        (rb.Track(lateral=[rb.Harmonic(1e-3, wavelength=10.0), short]), "track.lateral"),
+    ]:
+        with pytest.raises(rb.InputError) as caught:
+            check(train, DECK, track, speed=20.0)
+        assert caught.value.field == field
+    # Bare axle loads meet no rail.
+    check(rb.AxleTrain([0.0, 2.0], [1e5, 1e5]), DECK, rb.Track(vertical=short), speed=20.0)
+
+
+def test_a_rail_must_not_repeat_below_a_train():
+    train = rb.Train(CAR, cars=2, car_spacing=22.5)
+    needed = 150.0 + DECK.length + train.length
+    check(train, DECK, rb.Track(vertical=Rail(period=needed)), speed=20.0)
+    words = f"track.vertical: repeats after {needed - 1:.6g} m, less than .* {needed:.6g} m"
+    with pytest.raises(rb.InputError, match=words):
+        check(train, DECK, rb.Track(vertical=Rail(period=needed - 1.0)), speed=20.0)

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import railbridge as rb
-from railbridge.tracks import FadeIn
+from railbridge.tracks import FadeIn, extent_of, period_of
 
 metres = st.floats(-300.0, 300.0)
 
@@ -159,3 +159,23 @@ def test_sums_rails_and_levels():
 def test_what_is_no_irregularity_is_refused(wrong):
     with pytest.raises(rb.InputError, match="vertical.*must be an irregularity"):
         rb.Track(vertical=wrong)
+
+
+class Known:
+    """A level rail that is known between two places, and that repeats."""
+
+    shortest = np.inf
+
+    def __init__(self, extent=None, period=None):
+        self.extent, self.period = extent, period
+
+    value = slope = staticmethod(np.zeros_like)
+
+
+def test_where_an_irregularity_is_known_and_where_it_repeats():
+    assert extent_of(rb.Level()) == (-np.inf, np.inf) and period_of(rb.Level()) == np.inf
+    assert extent_of(Known()) == (-np.inf, np.inf) and period_of(Known()) == np.inf
+    parts = [rb.Level(), Known((-5.0, 30.0), 200.0), [Known((-2.0, 40.0), 300.0)]]
+    rail = rb.Track(vertical=parts).rail("vertical", "left")
+    for found in (rail, FadeIn(rail, 10.0)):
+        assert extent_of(found) == (-2.0, 30.0) and period_of(found) == 200.0

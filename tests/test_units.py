@@ -33,7 +33,7 @@ IN, FT, LB = 0.0254, 0.3048, 0.45359237
 LBF = LB * 9.80665  # one pound under standard gravity
 KIP = 1000 * LBF
 BOOK = {
-    "number": {"": 1.0, "-": 1.0, "1": 1.0, "rad": 1.0, "%": 1 / 100},
+    "number": {"": 1.0, "-": 1.0, "1": 1.0, "rad": 1.0, "mrad": 1 / 1000, "%": 1 / 100},
     "length": {"m": 1.0, "cm": 1 / 100, "mm": 1 / 1000, "km": 1000, "in": IN, "ft": FT},
     # The slug is the mass that one pound of force gives one foot/s2; likewise all force s2/length.
     "mass": {

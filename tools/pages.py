@@ -1,22 +1,25 @@
-"""Write the tables of docs/case.md that come from the types of case files; `--check` only says
-whether they are right."""
+"""Write the tables of docs/case.md and docs/spectra.md, which come from types and data; `--check`
+only says whether they are right."""
 
 import sys
 from pathlib import Path
 
 from railbridge.cases import pages
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "case.md"
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+PAGES = (DOCS / "case.md", DOCS / "spectra.md")
 
 
 def main(arguments):
-    text = PAGE.read_text(encoding="utf-8")
-    written = pages.with_tables(text)
-    if arguments == ["--check"]:
-        sys.exit(f"{PAGE.name} is not up to date: run `make pages`" if written != text else 0)
-    if arguments:
+    if arguments not in ([], ["--check"]):
         sys.exit(__doc__)
-    PAGE.write_text(written, encoding="utf-8")
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        written = pages.with_tables(text)
+        if not arguments:
+            page.write_text(written, encoding="utf-8")
+        elif written != text:
+            sys.exit(f"{page.name} is not up to date: run `make pages`")
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from .errors import InputError, InputWarning, Remark, ResultWarning
-from .plausibility import doubts
+from .plausibility import doubts, parts_of
 from .results import Crossing
 from .settings import (
     COARSE_SAMPLES_PER_CONTACT,
@@ -46,6 +46,7 @@ def remarks(run: Crossing) -> tuple[Remark, ...]:
     found += _lifting(run)
     found += _moving_ends(run)
     found += _broken_track(run)
+    found += _measured(run)
     return tuple(found)
 
 
@@ -316,3 +317,9 @@ def _broken_track(run: Crossing) -> list[Remark]:
         "deck.rail = { bending_stiffness = 1.28e7, foundation = 1e8 }."
     )
     return [ResultWarning("", text)]
+
+
+def _measured(run: Crossing) -> list[Remark]:
+    """Tell how measured rails came to be what the wheels met, each story once."""
+    told = (getattr(part, "told", "") for _, part in parts_of(run.track))
+    return [Remark("", text) for text in dict.fromkeys(told) if text]

@@ -35,7 +35,8 @@ from .units import G
 from .vehicles import Body, Vehicle
 
 __all__ = [
-    "UNUSUAL", "damping_frequencies", "doubts", "first_vertical", "longest_span", "scale_in_doubt",
+    "UNUSUAL", "damping_frequencies", "doubts", "first_vertical", "longest_span", "parts_of",
+    "scale_in_doubt",
 ]  # fmt: skip
 
 UNUSUAL = "modes.unusual", "= true: a first frequency beyond those of bridges is accepted."
@@ -489,13 +490,18 @@ def _live_sag(train: AnyTrain, deck: Deck, span: float) -> list[InputWarning]:
 
 def _of_track(track: Track) -> list[InputWarning]:
     found = []
-    for direction in ("vertical", "lateral"):
-        for field, part in _parts(f"track.{direction}", getattr(track, direction)):
-            if hasattr(part, "amplitude") and hasattr(part, "wavelength"):
-                found += _of_wave(field, part)
-            elif hasattr(part, "x") and hasattr(part, "r"):
-                found += _of_table(field, part)
+    for field, part in parts_of(track):
+        if hasattr(part, "amplitude") and hasattr(part, "wavelength"):
+            found += _of_wave(field, part)
+        elif hasattr(part, "x") and hasattr(part, "r"):
+            found += _of_table(field, part)
     return found
+
+
+def parts_of(track: Track) -> Iterator[tuple[str, Irregularity]]:
+    """Give every irregularity of a track, as it was given, with its path."""
+    for direction in ("vertical", "lateral"):
+        yield from _parts(f"track.{direction}", getattr(track, direction))
 
 
 def _parts(field: str, given: object) -> Iterator[tuple[str, Irregularity]]:

@@ -1,8 +1,8 @@
 r"""Single faults of a rail: dips, joints and welds, once or at even distances.
 
 They are irregularities like those of `tracks`: x from the bridge entrance, r > 0 raises the wheel,
-so that a fault that lowers it has r < 0. How sure a typical size is stands with it: [two] sources
-say so, or [one].
+so that a fault that lowers it has r < 0. Usual sizes stand in the Notes, with how sure they are:
+by [two] sources, by [one], or [unchecked], which nobody should quote.
 """
 
 from __future__ import annotations
@@ -68,8 +68,7 @@ class Dip(_Repeated):
     Attributes
     ----------
     depth : float
-        In the middle, m; negative for a hump. A dipped joint 3 mm deep and 1 m long is a usual size
-        (Kabo 2006) [one].
+        In the middle, m; negative for a hump.
     length : float
         From end to end, m.
     at : float
@@ -78,6 +77,10 @@ class Dip(_Repeated):
         m between middles, at least the length; only one if left out.
     count : int, optional
         How many; if only spacing is given, they are everywhere, behind and ahead of `at`.
+
+    Notes
+    -----
+    A dipped joint has been modelled so, 3 mm deep and 1 m long (Kabo 2006) [one].
     """
 
     depth: Annotated[float, _DEPTH]
@@ -111,10 +114,7 @@ class Joint(_Repeated):
     Attributes
     ----------
     angle : float
-        2 alpha, the total angle between the two rail ends, rad. It is what impact forces at joints
-        are said by (Jenkins et al. 1974, "The effect of track and vehicle parameters on wheel/rail
-        vertical dynamic forces"; Mandal, Dhanasekar, Sun 2016, doi 10.1177/0954409714537816) [two];
-        5 to 15 mrad are usual, 20 mrad is bad [one].
+        2 alpha, the total angle between the two rail ends, rad.
     length : float
         From where one rail begins to sink to where the other has risen, m.
     at : float
@@ -126,6 +126,9 @@ class Joint(_Repeated):
 
     Notes
     -----
+    Impact forces at joints are said by the angle 2 alpha (P1 and P2 of Jenkins et al. 1974; Mandal,
+    Dhanasekar, Sun, doi 10.1177/0954409714537816) [two]; 5 to 15 mrad are usual [unchecked].
+
     Wrong in the very joint for a wheel without mass on permanent contact: its damper answers the
     jump of the slope by a jump of the force, c V angle, where a real wheel strikes. A real wheel
     also rolls over the cusp on its radius.
@@ -168,9 +171,7 @@ class Weld(_Repeated):
     Attributes
     ----------
     depth : float
-        Of the long part, m; negative for a hump. 0.2 to 1 mm over 1 m, with a short part of 0.1 to
-        0.2 mm over 0.1 m, are usual sizes (the two waves: Zhai, "Vehicle-Track Coupled Dynamics")
-        [one].
+        Of the long part, m; negative for a hump.
     length : float
         Of the long part, m.
     short_depth : float
@@ -186,6 +187,10 @@ class Weld(_Repeated):
 
     Notes
     -----
+    Cosine waves are the usual model of welds; it keeps their height, not their shape (Sun et al.
+    2025, doi 10.32604/cmes.2024.056023) [one]. 0.2 to 1 mm over 1 m, with 0.1 to 0.2 mm over 0.1 m
+    on top, are usual sizes [unchecked].
+
     Waves of 0.1 m ask for very small time steps, and at 20 m/s for forces of 200 Hz: give the
     vehicle wheelsets with mass, or leave the short part out (``short_depth = 0``).
     """

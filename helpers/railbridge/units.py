@@ -19,8 +19,7 @@ _LBF, _IN, _FT = 4.4482216152605, 0.0254, 0.3048
 """Pound of force, N; inch and foot, m: exact by definition."""
 
 UNITS: dict[str, dict[str, float]] = {
-    "number": {"": 1.0, "-": 1.0, "1": 1.0, "rad": 1.0, "%": 0.01},
-    "angle": {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180},
+    "number": {"": 1.0, "-": 1.0, "1": 1.0, "rad": 1.0, "mrad": 1e-3, "%": 0.01},
     "length": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "km": 1e3, "in": _IN, "ft": _FT},
     "area": {"m2": 1.0, "cm2": 1e-4, "mm2": 1e-6, "in2": _IN**2, "ft2": _FT**2},
     "second moment of area": {

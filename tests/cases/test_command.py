@@ -189,8 +189,9 @@ def test_help_shows_examples_files_and_exit_codes(capsys):
 
 def test_lists_and_schema(capsys):
     code, out, _ = command(capsys, "list")
-    assert code == 0 and {"vehicles", "trains", "decks", "cases"} <= set(out)
+    assert code == 0 and {"vehicles", "trains", "decks", "spectra", "cases"} <= set(out)
     assert any(line.startswith("  xia2000 ") for line in out)
+    assert "  german-low          German railways, low disturbance" in out
     code, out, _ = command(capsys, "list", "trains")
     assert code == 0 and out[0] == "trains"
     assert "  HSLM-A1             50 axles, 397.5 m, 8500 kN" in out

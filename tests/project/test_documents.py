@@ -20,6 +20,7 @@ MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 TARGETS = dict(re.findall(r"^([a-z-]+):[^#\n]*## .*\n((?:\t.*\n)*)", MAKEFILE, re.MULTILINE))
 DOCUMENTS = (
     "README.md", "CONTRIBUTING.md", "docs/map.md", "docs/case.md", "docs/hub.md", "docs/studies.md",
+    "docs/spectra.md",
 )  # fmt: skip
 
 
@@ -108,6 +109,27 @@ def test_tables_of_the_case_page_are_those_of_the_types():
     text = (ROOT / "docs" / "case.md").read_text(encoding="utf-8")
     assert pages.with_tables(text) == text, "run `make pages`"
     assert len(re.findall("<!-- table: ", text)) >= 10
+
+
+SPECTRA = (ROOT / "docs" / "spectra.md").read_text(encoding="utf-8")
+
+
+def test_the_table_of_spectra_is_that_of_the_data():
+    assert pages.with_tables(SPECTRA) == SPECTRA, "run `make pages`"
+    shown = SPECTRA.partition("<!-- table: spectra -->")[2].partition("<!-- end -->")[0]
+    assert re.findall(r"^\| `(.+?)` \|", shown, re.MULTILINE) == rb.irregularities.spectrum_names()
+    assert "| vertical | m2/(rad/m) | two | 3 to 150 (ours) | 0.9843 mm |" in SPECTRA
+
+
+def test_the_blocks_of_the_page_on_spectra_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (own,) = re.findall(r"```toml\n(.*?)```", SPECTRA, re.DOTALL)
+    Path("my-track.toml").write_text(own, encoding="utf-8")
+    scope = {}
+    for block in re.findall(r"```python\n(.*?)```", SPECTRA, re.DOTALL):
+        exec(block, scope)
+    assert scope["mine"].sigma("vertical") > 0
+    assert scope["measured"].components == ("vertical",)
 
 
 def test_every_unit_is_on_the_case_page():

@@ -8,9 +8,10 @@ from .opening import open_study
 from .shelf import data_root
 from .summary import summarize
 from .sweeping import speed_envelope, sweep
+from .trackfiles import track_record
 
 __all__ = [
     "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table", "open_study",
-    "planar_car", "read_train", "speed_envelope", "sprung_mass", "summarize", "sweep", "train",
-    "train_list", "two_bogie_car", "varied_car", "vehicle",
+    "planar_car", "read_train", "speed_envelope", "sprung_mass", "summarize", "sweep",
+    "track_record", "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
 ]  # fmt: skip

@@ -37,7 +37,7 @@ from .summary import histories, to_json
 __all__ = ["main"]
 
 FILES = ("points.csv", "wheels.csv", "reactions.csv", "iterations.csv", "summary.json")
-KINDS = ("vehicles", "trains", "decks", "cases")
+KINDS = ("vehicles", "trains", "decks", "spectra", "cases")
 
 DESCRIPTION = """\
 What a train does to a railway bridge: case files in, results out.
@@ -192,8 +192,8 @@ def _parser() -> argparse.ArgumentParser:
     new = add("new", _new, "write a commented case file that runs as it is")
     new.add_argument("file", help="file to write; one that exists is left alone")
     new.add_argument("--study", action="store_true", help="a study file for railbridge sweep")
-    listing = add("list", _list, "list shipped vehicles, trains, decks and cases")
-    listing.add_argument("kind", nargs="?", choices=KINDS, help="all four if left out")
+    listing = add("list", _list, "list shipped vehicles, trains, decks, spectra and cases")
+    listing.add_argument("kind", nargs="?", choices=KINDS, help="all five if left out")
     copying = add(
         "copy-notebooks",
         _copy_notebooks,

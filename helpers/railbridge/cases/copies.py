@@ -30,6 +30,7 @@ PAGES = (
     "LICENSE-notebooks.md",
     "docs/case.md",
     "docs/exchange.md",
+    "docs/spectra.md",
     "docs/studies.md",
     "docs/symbols.md",
     "docs/crossing.png",

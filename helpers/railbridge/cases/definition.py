@@ -254,8 +254,9 @@ def _beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
     change(deck, "file")
     change(train, "vehicle")
     change(train, "file")
-    for record in _records(content.get("track")):
-        change(record, "file")
+    for kind, name in (("file", "file"), ("random", "spectrum")):
+        for irregularity in _of_kind(content.get("track"), kind):
+            change(irregularity, name)
     if isinstance(deck, dict):
         content["deck"] = exchange.beside(deck, folder)
     if isinstance(train, dict) and isinstance(train.get("cars"), list):
@@ -265,12 +266,12 @@ def _beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
     return content
 
 
-def _records(place: Any, deepest: int = _DEEPEST) -> Iterator[dict[str, Any]]:
-    """Give the tables of a track that name a file."""
+def _of_kind(place: Any, kind: str, deepest: int = _DEEPEST) -> Iterator[dict[str, Any]]:
+    """Give the tables of a track that are of one kind of irregularity."""
     parts = place if isinstance(place, list) else []
     if isinstance(place, dict):
-        if place.get("kind") == "file":
+        if place.get("kind") == kind:
             yield place
         parts = list(place.values())
     for part in parts if deepest else ():
-        yield from _records(part, deepest - 1)
+        yield from _of_kind(part, kind, deepest - 1)

@@ -19,7 +19,7 @@ from ..boxes import Box, BoxMesh, Pads
 from ..decks import Deck, rayleigh
 from ..errors import InputError, Remark, ResultWarning, did_you_mean, plain, within
 from ..exchange import ModesTable
-from ..irregularities import RecordedRail, TrackRecord
+from ..irregularities import PAIRS, Cosines, RandomTrack, RecordedRail, TrackRecord, spectrum
 from ..plausibility import damping_frequencies
 from ..rails import Rail
 from ..shapes import Dip, Joint, Weld
@@ -217,10 +217,10 @@ def _rails(direction: str, t: Any) -> Any:
 
 
 def _differs(left: Any, right: Any) -> bool:
-    """Whether a recorded rail makes the two rails differ."""
+    """Whether a recorded or a random rail makes the two rails differ."""
     if isinstance(left, list):
         return any(map(_differs, left, right))
-    return isinstance(left, RecordedRail) and left is not right
+    return isinstance(left, (RecordedRail, Cosines)) and left is not right
 
 
 _IRREGULARITIES = {
@@ -234,8 +234,8 @@ def _irregularity(path: str, t: Any, side: str) -> Irregularity | list:
         return [_irregularity(f"{path}[{i}]", part, side) for i, part in enumerate(t, start=1)]
     given = t.given
     kind = given.pop("kind")
-    if kind == "file":
-        return _recorded(path, given, side)
+    if kind in ("file", "random"):
+        return (_recorded if kind == "file" else _random)(path, given, side)
     with within(path):
         return _IRREGULARITIES[kind](**given)
 
@@ -250,6 +250,46 @@ def _recorded(path: str, given: dict[str, Any], side: str) -> Irregularity:
         if found is None:
             allowed = "holds no columns of this direction"
             raise InputError("file", file.name, allowed, "See railbridge.track_record")
+    return getattr(found, side) if isinstance(found, Rails) else found
+
+
+def _stamp(name: str) -> tuple[int, ...]:
+    """Return what changes with a file; nothing for what is shipped."""
+    if not shelf.is_path(name):
+        return ()
+    stamp = Path(name).stat()
+    return stamp.st_mtime_ns, stamp.st_size
+
+
+@lru_cache(maxsize=16)
+def _drawn(
+    name: str,
+    sigma: float | None,
+    component: str,
+    options: tuple[tuple[str, Any], ...],
+    *_stamps: int,
+) -> RandomTrack:
+    """Draw a track once for both rails."""
+    own = spectrum(name)
+    return RandomTrack(own if sigma is None else own.scaled(sigma, component), **dict(options))
+
+
+def _random(path: str, given: dict[str, Any], side: str) -> Irregularity:
+    """Return one rail of a random track, in the direction that the path says."""
+    direction = "lateral" if path.startswith("track.lateral") else "vertical"
+    both, apart = PAIRS[direction]
+    with within(path):
+        own = spectrum(given["spectrum"])
+        names = [name for name in (both, apart) if name in own.components]
+        if not given.get("rails_differ", True):
+            names = names[:1]
+        if both not in names:
+            allowed = f"{own.name} has no {both}, only {', '.join(own.components)}"
+            raise InputError("spectrum", given["spectrum"], allowed)
+        options = {name: given[name] for name in ("band", "seed", "period") if name in given}
+        options |= {"components": tuple(names)}
+        known = given["spectrum"], given.get("sigma"), both, tuple(options.items())
+        found = getattr(_drawn(*known, *_stamp(given["spectrum"])), direction)
     return getattr(found, side) if isinstance(found, Rails) else found
 
 

@@ -9,12 +9,14 @@ from typing import Any
 
 from pydantic_core import PydanticUndefined
 
-from .. import bounds
+from .. import bounds, irregularities
 from ..units import UNITS
 from . import tables
 from .tabletypes import Table
 
-__all__ = ["rows", "schema", "starter", "study_starter", "unit_rows", "with_tables"]
+__all__ = [
+    "rows", "schema", "spectrum_rows", "starter", "study_starter", "unit_rows", "with_tables",
+]  # fmt: skip
 
 
 def schema() -> dict[str, Any]:
@@ -64,6 +66,23 @@ def unit_rows() -> list[str]:
     return lines
 
 
+def spectrum_rows() -> list[str]:
+    """Return the lines of a Markdown table of the shipped spectra of track irregularities."""
+    lines = ["| name | family | component | density | grade | band, m | sigma(D1) |"]
+    lines.append("|---|---|---|---|---|---|---|")
+    for name in irregularities.spectrum_names():
+        spectrum = irregularities.spectrum(name)
+        band = "{:g} to {:g}".format(*spectrum.band)
+        band += "" if spectrum.band_source.startswith("printed") else " (ours)"
+        first = [f"`{name}`", spectrum.family]
+        for component, row in spectrum.to_frame().iterrows():
+            sigma = f"{row['sigma D1']:.4g} {row['sigma unit']}"
+            cells = [*first, component, row["unit"], row["grade"], band, sigma]
+            lines.append(f"| {' | '.join(cells)} |")
+            first, band = ["", ""], ""
+    return lines
+
+
 _MARKED = re.compile(r"(<!-- table: ([\w. ]+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
 
 
@@ -71,9 +90,9 @@ def with_tables(page: str) -> str:
     """Return a page with its marked tables written anew.
 
     A table stands between ``<!-- table: NAME -->`` and ``<!-- end -->``; NAME is one of `TABLES`,
-    ``units``, or ``doubts`` for what is doubted.
+    ``units``, ``spectra``, or ``doubts`` for what is doubted.
     """
-    special = {"units": unit_rows, "doubts": bounds.table}
+    special = {"units": unit_rows, "doubts": bounds.table, "spectra": spectrum_rows}
 
     def written(found: re.Match) -> str:
         name = found[2]

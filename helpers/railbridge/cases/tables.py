@@ -25,7 +25,8 @@ from ..decks import RATIO
 from ..errors import InputError, Range, choice, keys
 from ..exchange import ModesTable
 from ..guideways import Guideway
-from ..irregularities.records import BAND, LARGEST_DRIFT, LARGEST_STEP
+from ..irregularities import RandomTrack
+from ..irregularities.records import BAND, LARGEST_DRIFT, LARGEST_STEP, checked_band
 from ..irregularities.repairs import REPAIRS
 from ..rails import Rail
 from ..settings import Options
@@ -92,7 +93,7 @@ NAME = anything({"type": "string", "minLength": 1})
 
 # ---- track
 
-_KINDS = ("none", "harmonic", "table", "file", "dip", "joint", "weld")
+_KINDS = ("none", "harmonic", "table", "random", "file", "dip", "joint", "weld")
 
 
 def _kind(name: str) -> dict[str, Any]:
@@ -112,13 +113,6 @@ MEASURED = table(
     "Measured", "A measured irregularity.", **_kind("table"), **fields_of(MeasuredTrack)
 )
 
-
-def _band(value: Any) -> Any:
-    if isinstance(value, str):
-        return choice("", value, ("all",))
-    return tuple(errors.numbers("", value, count=2, above=0.0, unit="m").tolist())
-
-
 _WAVES = {
     "anyOf": [
         {"type": "array", "items": {"type": "number", "exclusiveMinimum": 0}, "minItems": 2,
@@ -126,6 +120,30 @@ _WAVES = {
         {"enum": ["all"]},
     ]
 }  # fmt: skip
+RANDOM = table(
+    "Random",
+    "A track drawn from a spectrum: many waves with random phases. The same seed below "
+    "track.vertical and track.lateral gives components that are independent all the same.",
+    **_kind("random"),
+    spectrum=key(
+        NAME, "A shipped spectrum (german-low), or a .toml file beside this one.", required=True
+    ),
+    **fields_of(RandomTrack, only=("seed", "period")),
+    band=key(
+        numbers(2, above=0.0, unit="m"), "Shortest and longest wavelength, m.", RandomTrack.band
+    ),
+    sigma=key(
+        number(above=0.0, unit="m"),
+        "m; makes the spectrum rougher or smoother, so that its standard deviation over 3 to 25 m "
+        "(D1 of EN 13848) is this: of vertical level, or of alignment below track.lateral.",
+    ),
+    rails_differ=key(
+        boolean,
+        "Whether cross-level (below track.lateral gauge) moves the rails apart, where the spectrum "
+        "has it.",
+        True,
+    ),
+)
 RECORDED = table(
     "Recorded",
     "What a recording car wrote into a CSV file: its heights below track.vertical, its places "
@@ -133,15 +151,14 @@ RECORDED = table(
     **_kind("file"),
     file=key(NAME, "A shipped record, or a .csv file beside this one.", required=True),
     band=key(
-        anything(_WAVES, _band),
+        anything(_WAVES, lambda value: checked_band("", value)),
         'Shortest and longest wavelength kept, m; or "all". What the band takes out is told.',
-        BAND,
+        list(BAND),
     ),
     origin=key(number(unit="m"), "Place of the record at the bridge entrance, m.", 0.0),
     repair=key(
         _words(REPAIRS),
         "What is mended, else refused: some of " + " ".join(REPAIRS) + "; what was done is told.",
-        (),
     ),
     largest_step=key(
         number(above=0.0, unit="m"), "m; neighbours that differ more are a step.", LARGEST_STEP
@@ -168,8 +185,8 @@ WELD = table(
 IRREGULARITY = switched(
     lambda value: by_value(value, "kind", _KINDS, otherwise="harmonic"),
     {
-        "none": LEVEL, "harmonic": HARMONIC, "table": MEASURED, "file": RECORDED, "dip": DIP,
-        "joint": JOINT, "weld": WELD,
+        "none": LEVEL, "harmonic": HARMONIC, "table": MEASURED, "random": RANDOM,
+        "file": RECORDED, "dip": DIP, "joint": JOINT, "weld": WELD,
     },
 )  # fmt: skip
 IRREGULARITIES = TypeAliasType(
@@ -660,7 +677,7 @@ TABLES = {
     "deck.rail": RAIL,
     "train": OF_ONE_KIND, "mixed train": MIXED, "train.cars": SEVERAL, "bare train": BARE,
     "named train": NAMED, "train file": FROM_FILE, "train.notch": NOTCH, "track": TRACK,
-    "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "file": RECORDED,
+    "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "random": RANDOM, "file": RECORDED,
     "dip": DIP, "joint": JOINT, "weld": WELD, "none": LEVEL, "run": RUN,
     "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
     "wheelset": WHEELSET, "anti roll bar": ANTI_ROLL_BAR,

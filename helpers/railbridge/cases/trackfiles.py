@@ -102,7 +102,7 @@ def _metres(table: Columns, column: str) -> np.ndarray:
     unit = spelled(table.column_units.get(column, ""))
     known = dict(UNITS["length"])
     if column == "cross_level":
-        known |= {name: _BASE * factor for name, factor in UNITS["angle"].items()}
+        known |= {name: _BASE * UNITS["number"][name] for name in ("rad", "mrad")}
     if unit not in known:
         allowed = ("must be one of " if unit else "has no unit, must be one of ") + ", ".join(known)
         remedy = f"Write it in the header, {column} ({'m' if column == 'place' else 'mm'})"

@@ -3,13 +3,13 @@
 from .cosines import Cosines
 from .formulas import COMPONENTS
 from .reading import spectrum, spectrum_names
-from .realisations import PERIOD, RandomTrack, phases
+from .realisations import PAIRS, PERIOD, RandomTrack, phases
 from .records import Loss, RecordedRail, TrackRecord, record_of
 from .trackspectra import D1, D2, D3, GRADES, TrackSpectrum
 from .writing import export_track
 
 __all__ = [
-    "COMPONENTS", "Cosines", "D1", "D2", "D3", "GRADES", "Loss", "PERIOD", "RandomTrack",
+    "COMPONENTS", "Cosines", "D1", "D2", "D3", "GRADES", "Loss", "PAIRS", "PERIOD", "RandomTrack",
     "RecordedRail", "TrackRecord", "TrackSpectrum", "export_track", "phases", "record_of",
     "spectrum", "spectrum_names",
 ]  # fmt: skip

@@ -31,13 +31,16 @@ class Cosines:
         A, m: size and phase of every wave.
     period : float
         m after which the track repeats itself.
+    told : str
+        What must be known of where it comes from, for the remarks of a crossing.
     """
 
     __repr__ = brief
 
     wavenumbers: np.ndarray
     amplitudes: np.ndarray
-    period: float = field(default=np.inf)
+    period: float = np.inf
+    told: str = field(default="", compare=False)
 
     def __post_init__(self) -> None:
         waves = errors.numbers("wavenumbers", self.wavenumbers, above=0.0, unit="rad/m")

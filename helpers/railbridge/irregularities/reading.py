@@ -124,7 +124,8 @@ def _spectrum(name: str, content: Mapping[str, Any]) -> TrackSpectrum:
     with within("constants"):
         keys("", shared, used)
     band, base = tuple(numbers("band", content["band"], count=2)), content.get("base", 1.5)
-    return TrackSpectrum(name, content["family"], band, content["source"], parts, base)
+    said = (name, content["family"], band, content["source"], parts, base)
+    return TrackSpectrum(*said, band_source=content["band_source"])
 
 
 def _component(

@@ -22,19 +22,19 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from .. import errors
-from ..errors import InputError, Remark, brief, frozen
+from ..errors import InputError, Range, brief, frozen
 from ..tracks import Irregularity, Rails, Track
 from .cosines import Cosines
 from .formulas import COMPONENTS
 from .reading import spectrum
-from .trackspectra import TrackSpectrum
+from .trackspectra import GRADES, TrackSpectrum
 
-__all__ = ["PERIOD", "RandomTrack", "phases"]
+__all__ = ["PAIRS", "PERIOD", "RandomTrack", "phases"]
 
 PERIOD = 2000.0
 """m after which a random track repeats itself, if nothing else is asked for."""
@@ -90,9 +90,9 @@ class RandomTrack(Track):
     lateral: Irregularity | Rails | None = field(init=False, repr=False)
     spectrum: TrackSpectrum | str = "german-low"
     band: tuple[float, float] = (3.0, 150.0)
-    seed: int = 0
+    seed: Annotated[int, Range(least=0, whole=True)] = 0
     components: tuple[str, ...] | None = None
-    period: float | None = None
+    period: Annotated[float, Range(above=0.0, unit="m")] | None = None
 
     def __post_init__(self) -> None:
         own = self.spectrum
@@ -150,11 +150,6 @@ class RandomTrack(Track):
             for name in self.components
         }
 
-    @property
-    def remarks(self) -> tuple[Remark, ...]:
-        """What must be known of the spectrum."""
-        return self.spectrum.remarks
-
     def amplitudes(self, component: str) -> np.ndarray:
         """Return size and phase of every wave, m, complex: r = Re sum A exp(i W x)."""
         errors.choice("component", component, self.components)
@@ -163,18 +158,21 @@ class RandomTrack(Track):
 
     def component(self, name: str) -> Cosines:
         """Return one component by itself: what both rails share, or their difference."""
-        return self._rail(self.amplitudes(name))
+        return self._rail(self.amplitudes(name), (name,))
 
     def _of_rails(self, direction: str) -> Irregularity | Rails | None:
         both, apart = PAIRS[direction]
         shared = self.amplitudes(both) if both in self.components else 0.0 * self.wavenumbers
         if apart in self.components:
             half = self.amplitudes(apart) / 2
-            return Rails(*(self._rail(shared + part) for part in (half, -half)))
-        return self._rail(shared) if both in self.components else None
+            return Rails(*(self._rail(shared + part, (both, apart)) for part in (half, -half)))
+        return self._rail(shared, (both,)) if both in self.components else None
 
-    def _rail(self, amplitudes: np.ndarray) -> Cosines:
-        return Cosines(self.wavenumbers, amplitudes, self.length)
+    def _rail(self, amplitudes: np.ndarray, components: tuple[str, ...]) -> Cosines:
+        grades = {self.spectrum.grade(name) for name in components if name in self.components}
+        told = f"{self.spectrum.name}: its constants are "
+        told += f"{GRADES['memory' if 'memory' in grades else 'one']}."
+        return Cosines(self.wavenumbers, amplitudes, self.length, told * (grades != {"two"}))
 
 
 def _components(own: TrackSpectrum, given: Any) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
@@ -20,7 +20,7 @@ from .writing import write_columns
 
 __all__ = [
     "BAND", "COLUMNS", "LARGEST_DRIFT", "LARGEST_STEP", "Loss", "RecordedRail", "TrackRecord",
-    "record_of",
+    "checked_band", "record_of",
 ]  # fmt: skip
 
 BAND = (3.0, 150.0)
@@ -51,6 +51,8 @@ class RecordedRail:
         m.
     shortest : float
         Shortest length that the time step has to resolve, m.
+    told : str
+        What was done to the record, for the remarks of a crossing.
     """
 
     __repr__ = brief
@@ -59,6 +61,7 @@ class RecordedRail:
     step: float
     r: np.ndarray
     shortest: float
+    told: str = field(default="", compare=False)
 
     @property
     def extent(self) -> tuple[float, float]:
@@ -161,22 +164,28 @@ class TrackRecord:
         if sides[0] is None:
             return None
         shortest = 10.0 * self.step if self.band is None else self.band[0]
-        made = [RecordedRail(self.first, self.step, r, shortest) for r in sides]
+        lines = self._lines(COLUMNS[direction])
+        told = f"Measured track {self.name}, {direction}: {'; '.join(lines)}." if lines else ""
+        made = [RecordedRail(self.first, self.step, r, shortest, told) for r in sides]
         return made[0] if np.array_equal(*sides) else Rails(*made)
 
     @property
     def report(self) -> str:
         """What was mended and what the band took out, one sentence a line."""
+        lines = self._lines([name for names in COLUMNS.values() for name in names])
+        return "\n".join(lines or ["nothing mended, all wavelengths kept"])
+
+    def _lines(self, columns: Collection[str]) -> list[str]:
+        """Return what was mended, and what the band took out of some columns."""
         lines = list(self.repairs)
-        if self.band is None:
-            lines.append("all wavelengths are kept")
         for loss in self.losses if self.band is not None else ():
-            lines.append(
-                f"{loss.column}: variance {1e6 * loss.before:.4g} mm2 before, "
-                f"{1e6 * loss.after:.4g} mm2 within {self.band[0]:g} m to {self.band[1]:g} m, "
-                f"{100 * loss.share:.3g} % lost"
-            )
-        return "\n".join(lines)
+            if loss.column in columns:
+                lines.append(
+                    f"{loss.column}: variance {1e6 * loss.before:.4g} mm2, of it "
+                    f"{1e6 * loss.after:.4g} mm2 within {self.band[0]:g} to {self.band[1]:g} m, "
+                    f"{100 * loss.share:.3g} % lost"
+                )
+        return lines
 
     def to_frame(self):
         """Return a pandas DataFrame: heights and sideways places in mm, by place in m."""
@@ -218,7 +227,8 @@ def record_of(
     InputError
         What cannot be used; see `track_record`.
     """
-    waves = _band(band)
+    given = checked_band("band", band)
+    waves = None if given == "all" else given
     words = checked_repairs(repair)
     origin = errors.number("origin", origin, unit="m")
     limits = [
@@ -251,14 +261,17 @@ def record_of(
     return TrackRecord(name, first - origin, step, rails, waves, tuple(losses), samples.done)
 
 
-def _band(band: Any) -> tuple[float, float] | None:
-    if isinstance(band, str):
-        errors.choice("band", band, ["all"])
-        return None
-    shortest, longest = errors.numbers("band", band, count=2, above=0.0, unit="m").tolist()
+def checked_band(field: str, band: Any) -> tuple[float, float] | Literal["all"]:
+    """Return the shortest and the longest wavelength of a band, m, or "all"."""
+    if isinstance(band, str) and band == "all":
+        return band
+    if not errors.is_list(band):
+        raise InputError(
+            field, band, 'must be two wavelengths, m, or "all"', "For instance [3, 150]"
+        )
+    shortest, longest = errors.numbers(field, band, count=2, above=0.0, unit="m").tolist()
     if shortest >= longest:
-        remedy = 'Shortest wavelength first: [3, 150]; or "all"'
-        raise InputError("band", band, "must ascend", remedy)
+        raise InputError(field, band, "must ascend", "Shortest wavelength first: [3, 150]")
     return shortest, longest
 
 

@@ -50,9 +50,10 @@ def band_limited(r: np.ndarray, step: float, band: tuple[float, float]) -> np.nd
     """Return what is left of a record within a band of wavelengths, without a shift of phase.
 
     The gain is real: one within the band, zero half an octave outside of it, a half-cosine over the
-    logarithm of the wavelength between. Mean and straight line are taken out first. Beyond its ends
-    the record is continued by its reflection in the end points, which fades out over two of the
-    longest waves; within one of them from an end the result depends on that guess.
+    logarithm of the wavelength between. Mean and straight line are taken out first, and what lies
+    beyond the ends is taken for zero. Within one of the longest waves from an end the result
+    depends on that guess: of random track it is off by about 0.4 of its standard deviation over the
+    first 50 m, by 0.06 in the middle of 600 m, where the rest of the record decides.
 
     Parameters
     ----------
@@ -69,15 +70,9 @@ def band_limited(r: np.ndarray, step: float, band: tuple[float, float]) -> np.nd
     """
     along = np.arange(len(r)) - (len(r) - 1) / 2
     r = r - np.polyval(np.polyfit(along, r, 1), along)
-    more = min(len(r) - 1, int(np.ceil(2 * band[1] / step)))
-    before = 2 * r[0] - r[more:0:-1]
-    after = 2 * r[-1] - r[-2 : -more - 2 : -1]
-    fade = 0.5 - 0.5 * np.cos(np.pi * (np.arange(more) + 0.5) / more)
-    whole = np.concatenate([before * fade, r, after * fade[::-1]])
-    count = 2 ** int(np.ceil(np.log2(2 * len(whole))))
-    per_metre = np.fft.rfftfreq(count, step)
-    kept = np.fft.rfft(whole, count) * _gain(per_metre, band)
-    return np.fft.irfft(kept, count)[more : more + len(r)]
+    count = 2 ** int(np.ceil(np.log2(len(r) + 4 * band[1] / step)))
+    kept = np.fft.rfft(r, count) * _gain(np.fft.rfftfreq(count, step), band)
+    return np.fft.irfft(kept, count)[: len(r)]
 
 
 def _gain(per_metre: np.ndarray, band: tuple[float, float]) -> np.ndarray:

@@ -18,8 +18,12 @@ from .formulas import COMPONENTS, Formula, power_integral
 
 __all__ = ["D1", "D2", "D3", "GRADES", "FormulaDensity", "Scaling", "TableDensity", "TrackSpectrum"]
 
-D1, D2, D3 = (3.0, 25.0), (25.0, 70.0), (70.0, 150.0)
-"""Bands of wavelength of EN 13848-1, m. For cross-level and fast lines D3 may end at 200 m."""
+D1 = (3.0, 25.0)
+"""Shortest band of wavelength of EN 13848, m."""
+D2 = (25.0, 70.0)
+"""Middle band of wavelength of EN 13848, m."""
+D3 = (70.0, 150.0)
+"""Longest band of wavelength of EN 13848, m; it may end at 200 m."""
 
 GRADES = {
     "two": "two or more independent sources agree",
@@ -147,6 +151,8 @@ class TrackSpectrum:
     factor : float
         By which all densities are multiplied; see `scaled`.
     scaling : Scaling or None
+    band_source : str
+        Where the band of validity comes from.
     """
 
     name: str
@@ -157,6 +163,7 @@ class TrackSpectrum:
     base: float = 1.5
     factor: float = 1.0
     scaling: Scaling | None = None
+    band_source: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "band", _ordered("band", self.band))
@@ -294,7 +301,8 @@ class TrackSpectrum:
     def describe(self) -> str:
         """Return in a few lines what it is, where it comes from and how rough it is."""
         lines = [f"{self.name}: {self.family}", f"source: {self.source}"]
-        lines.append("valid for wavelengths of {:g} to {:g} m".format(*self.band))
+        valid = "valid for wavelengths of {:g} to {:g} m".format(*self.band)
+        lines.append(valid + f" ({self.band_source})" * bool(self.band_source))
         lines += [f"scaled: {self._scaled_text()}"] if self.scaling else []
         for name in self.components:
             bands = zip(("D1", "D2", "D3"), self._sigmas(name), strict=True)
@@ -365,7 +373,8 @@ class TrackSpectrum:
             s = numbers(component, values, count=len(x), above=0.0, unit=_density_unit(quantity))
             parts[component] = Component(TableDensity(frozen(x), frozen(s)), quantity)
         band = (_TWO_PI / x[-1], _TWO_PI / x[0])
-        return cls(text("name", name), "own", band, text("source", source), parts, base)
+        own = (text("name", name), "own", band, text("source", source), parts, base)
+        return cls(*own, band_source="from the first to the last point of the table")
 
     # ---- inside
 
@@ -402,8 +411,8 @@ class TrackSpectrum:
     def _scaled_text(self) -> str:
         s = self.scaling
         unit = self._small(s.component)
-        numbers = f"sigma of {s.component} {1e3 * s.before:.4g} -> {1e3 * s.wanted:.4g} {unit}"
-        return numbers + f" ({s.band[0]:g}-{s.band[1]:g} m), densities times {self.factor:.4g}"
+        said = f"sigma of {s.component} {1e3 * s.before:.4g} -> {1e3 * s.wanted:.4g} {unit}"
+        return said + f" ({s.band[0]:g}-{s.band[1]:g} m), densities times {self.factor:.4g}"
 
 
 def _density_unit(quantity: str) -> str:

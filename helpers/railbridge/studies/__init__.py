@@ -13,19 +13,31 @@ from .fingerprints import fingerprint, print_of_crossing, print_of_deck
 from .lanes import WIDTH, advance_of, eligible
 from .mixtures import WORTH, mixture_key
 from .outputs import OUTPUTS, outputs_at
+from .peakfactors import Extreme, PeakFactor, davenport, extreme, upcrossing_rate
 from .randomresponse import RandomResponse, random_response
 from .refinement import Between, starting_speeds
 from .resonance import repeated_distance, residual_acceleration, resonance_speeds
+from .statistics import (
+    Percentile,
+    Share,
+    Statistics,
+    describe,
+    exceedance,
+    needed_for_mean,
+    needed_for_percentile,
+)
 from .store import MemoryStore, Store
 from .study import CHUNK, CHUNK_OF_LOADS, Point, carry_out, chunked, remaining
 from .unitwaves import UnitWaves, unit_waves, wave_forces
 
 __all__ = [
-    "Asked", "Between", "CHUNK", "CHUNK_OF_LOADS", "Dimension", "Ensemble", "Job", "MemoryStore",
-    "NUMBERS", "OUTPUTS", "Point", "QUANTITIES", "RandomResponse", "Row", "Store", "UnitWaves",
-    "WIDTH", "WORTH", "WorkerDiedError", "advance_of", "asked_of", "carry_out", "checked_speeds",
-    "chunked", "dataset", "eligible", "fingerprint", "mixture_key", "named_trains", "needed",
+    "Asked", "Between", "CHUNK", "CHUNK_OF_LOADS", "Dimension", "Ensemble", "Extreme", "Job",
+    "MemoryStore", "NUMBERS", "OUTPUTS", "PeakFactor", "Percentile", "Point", "QUANTITIES",
+    "RandomResponse", "Row", "Share", "Statistics", "Store", "UnitWaves", "WIDTH", "WORTH",
+    "WorkerDiedError", "advance_of", "asked_of", "carry_out", "checked_speeds", "chunked",
+    "dataset", "davenport", "describe", "eligible", "exceedance", "extreme", "fingerprint",
+    "mixture_key", "named_trains", "needed", "needed_for_mean", "needed_for_percentile",
     "outputs_at", "print_of_crossing", "print_of_deck", "random_response", "remaining",
     "repeated_distance", "residual_acceleration", "resonance_speeds", "respond", "signature",
-    "speed_envelope", "starting_speeds", "table", "unit_waves", "wave_forces",
+    "speed_envelope", "starting_speeds", "table", "unit_waves", "upcrossing_rate", "wave_forces",
 ]  # fmt: skip

@@ -96,9 +96,9 @@ class Ensemble:
 
 
 def shares_of(track: RandomTrack, waves: UnitWaves, seed: int) -> np.ndarray:
-    """Return how much of every lane the realisation of a seed has, m.
+    """Return how much of every lane the realisation of a seed has, m, shape (components, 2 waves).
 
-    Shape (components, 2 waves): of A cos(W x + phi) the cosine has A cos(phi), the sine -A sin(phi).
+    Of A cos(W x + phi) the cosine has A cos(phi), the sine -A sin(phi).
     """
     result = []
     for component in waves.components:

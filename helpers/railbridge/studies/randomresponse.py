@@ -23,7 +23,7 @@ import numpy as np
 
 from .. import errors
 from ..decks import Deck
-from ..errors import brief
+from ..errors import InputError, brief
 from ..irregularities import RandomTrack, TrackSpectrum
 from ..settings import LEAD_IN_SECONDS
 from ..trains import AnyTrain
@@ -203,12 +203,24 @@ def random_response(
     """
     if not isinstance(track, RandomTrack):
         track = RandomTrack(track)
-    if track.period is None:
-        speed = errors.number("speed", options.get("speed"), above=0.0, unit="m/s")
-        way = LEAD_IN_SECONDS * speed + deck.length + 2 * deck.reach + train.length
-        track = replace(track, period=10.0 * np.ceil(_LONGER * way / 10.0))
+    track = _long_enough(train, deck, track, options.get("speed"))
     waves = unit_waves(
         train, deck, track.edges, components=track.components, quantities=quantities,
         points=points, wheels_of=wheels_of, progress=progress, **options,
     )  # fmt: skip
     return RandomResponse(track, waves)
+
+
+def _long_enough(train: AnyTrain, deck: Deck, track: RandomTrack, speed: float) -> RandomTrack:
+    """Return a track that does not repeat itself below the train; refuse one that would."""
+    speed = errors.number("speed", speed, above=0.0, unit="m/s")
+    length = errors.instance("deck", deck, Deck).length + 2 * deck.reach
+    length += errors.instance("train", train, AnyTrain).length
+    if track.period is None:
+        way = _LONGER * (LEAD_IN_SECONDS * speed + length)
+        return replace(track, period=float(10.0 * np.ceil(way / 10.0)))
+    if track.length < length:
+        allowed = f"is shorter than deck and train, {length:.4g} m: wheels would meet the same"
+        allowed += " waves again"
+        raise InputError("track.period", track.period, allowed, "Leave it out to have it chosen")
+    return track
