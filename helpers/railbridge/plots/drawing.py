@@ -20,9 +20,9 @@ from .style import GREY, SHADE, style_of
 
 __all__ = [
     "FIGURE_WIDTH", "PLACE_LABEL", "TIME_LABEL", "axes_or_new", "axes_or_new_grid", "band",
-    "curve", "keep_limits", "label_axes", "leave_behind", "log_frequencies", "note", "numbers_up_to",
-    "quantity_curve", "reuse_artists", "reuses_artists", "round_down", "round_up", "shade",
-    "small_multiples", "vertical_lines",
+    "curve", "keep_limits", "label_axes", "leave_behind", "log_frequencies", "note",
+    "numbers_up_to", "quantity_curve", "reuse_artists", "reuses_artists", "round_down", "round_up",
+    "shade", "small_multiples", "vertical_lines",
 ]  # fmt: skip
 
 FIGURE_WIDTH = 9.0  # inch, 900 px in a notebook

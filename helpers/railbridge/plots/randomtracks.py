@@ -63,7 +63,11 @@ def track_spectra(
 
 
 def random_response(
-    response: RandomResponse, name: str, seeds: Sequence[int] = (), ax: Axes | None = None
+    response: RandomResponse,
+    name: str,
+    seeds: Sequence[int] = (),
+    ax: Axes | None = None,
+    extreme: Extreme | None = None,
 ) -> Axes:
     """Plot the mean of a history, a standard deviation either way, and some realisations in grey.
 
@@ -75,6 +79,8 @@ def random_response(
     seeds : sequence of int
         Realisations.
     ax : Axes, optional
+    extreme : Extreme, optional
+        Of the magnitude: the level that one crossing in twenty exceeds is dashed, either way.
     """
     ax, style = axes_or_new(ax), _style(name)
     time, mean, sigma = response.time(name), response.mean(name), response.sigma(name)
@@ -87,6 +93,11 @@ def random_response(
     for edge, values in (("mean - sigma", low), ("mean + sigma", high)):
         curve(ax, edge, time, values, color=style.colour, lw=0.8)
     curve(ax, "mean", time, style.factor * mean, color=style.colour, label="mean: level track")
+    if extreme is not None:
+        level, ends = style.factor * extreme.percentile(95.0), time[[0, -1]]
+        line = {"color": "k", "ls": "--", "lw": 1.0}
+        curve(ax, "rare", ends, [level] * 2, label="exceeded by 1 crossing in 20", **line)
+        curve(ax, "rare below", ends, [-level] * 2, **line)
     return label_axes(ax, TIME_LABEL, style.label)
 
 
