@@ -138,7 +138,8 @@ def extremes(
         low, high = (ends[0], ends[1]) if ends[0] < ends[1] else (ends[1], ends[0])
         ax.set_xlim(min(low, values.min()), max(high, values.max()))
     what = "wheel unloading (-)" if name == "wheel_unloading" else style.label
-    label_axes(ax, f"extreme of the {what}", "share per unit")
+    per = "unit" if style.unit == "-" else style.unit
+    label_axes(ax, f"extreme of the {what}", f"share per {per}")
     ax.set_ylim(bottom=0.0)
     return ax
 
