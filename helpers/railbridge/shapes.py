@@ -127,7 +127,7 @@ class Joint(_Repeated):
     Notes
     -----
     Impact forces at joints are said by the angle 2 alpha (P1 and P2 of Jenkins et al. 1974; Mandal,
-    Dhanasekar, Sun, doi 10.1177/0954409714537816) [two]; 5 to 15 mrad are usual [unchecked].
+    Dhanasekar, Sun, doi 10.1177/0954409714537816) [unchecked]; 5 to 15 mrad are usual [unchecked].
 
     Wrong in the very joint for a wheel without mass on permanent contact: its damper answers the
     jump of the slope by a jump of the force, c V angle, where a real wheel strikes. A real wheel

@@ -59,6 +59,8 @@ def test_powers_near_one_over_x_lose_no_digits(shift):
     [
         ("roughness", "rad/m", "height", "cm2 rad/m", 1e-4),
         ("roughness", "1/m", "height", "m", 1.0),
+        ("roughness", "1/m", "height", "cm2/m", 1e-4),
+        ("roughness", "1/m", "height", "mm2/m", 1e-6),
         ("density", "1/m", "height", "mm2/(1/m)", 1e-6),
         ("density", "rad/m", "angle", "mrad2/(rad/m)", 1e-6),
         ("wave number", "1/m", "height", "1/m", 1.0),

@@ -42,8 +42,8 @@ def track_record(
 
     ``vertical_left``, ``vertical_right`` are heights, up positive; ``lateral_left``,
     ``lateral_right`` are places sideways, left positive. ``vertical`` and ``alignment`` are their
-    means, ``cross_level`` and ``gauge`` left minus right: ``z = vertical +- cross_level / 2``, ``y
-    = alignment +- gauge / 2``. A cross-level is a height over 1.5 m or an angle (``mrad``), the
+    means, ``cross_level`` and ``gauge`` left minus right: the left rail is half of it above the
+    mean, the right one below. A cross-level is a height over 1.5 m or an angle (``mrad``), the
     left rail higher positive. Blank cells and NaN are samples that are missing. The file must
     follow the train: places ascend.
 

@@ -25,8 +25,9 @@ from ..errors import (
     text,
     within,
 )  # fmt: skip
+from .densities import FormulaDensity
 from .formulas import COMPONENTS, FORMULAS, Formula, factors
-from .trackspectra import GRADES, Component, FormulaDensity, TrackSpectrum
+from .trackspectra import GRADES, Component, TrackSpectrum
 
 __all__ = ["spectrum", "spectrum_names"]
 

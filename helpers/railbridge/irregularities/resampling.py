@@ -10,7 +10,7 @@ from ..errors import InputError
 __all__ = ["LEAST_PER_WAVE", "band_limited", "even"]
 
 LEAST_PER_WAVE = 4
-"""Samples in the shortest wave of the band; a cubic spline's slope is then within 4 %."""
+"""Samples in the shortest wave of the band: the slope of a cubic spline is then within 5 %."""
 _ROLL_OFF = 0.5
 """Octaves outside of the band over which the gain falls from one to zero."""
 _EVEN = 1e-6

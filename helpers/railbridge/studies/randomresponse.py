@@ -3,7 +3,7 @@ r"""What is certain about an uncertain track: the exact variance of every answer
 A random track is a sum of cosines of independent phases, each of the variance s_k its band of the
 spectrum holds. Train and deck answer each in a way that is known (`unitwaves`), so at every time
 
-    mean      y_0(t), that of level track,
+    mean      y_0(t), that of the track without them,
     variance  sum over components and waves of s_k (y_c,k(t)^2 + y_s,k(t)^2):
 
 the pseudo-excitation method (Lin 1992; of trains on bridges Zhang, Lin, Zhang, Zhao & Williams
@@ -26,6 +26,7 @@ from ..decks import Deck
 from ..errors import InputError, brief
 from ..irregularities import RandomTrack, TrackSpectrum
 from ..settings import LEAD_IN_SECONDS
+from ..tracks import Track
 from ..trains import AnyTrain
 from .ensembles import Ensemble, draw, shares_of
 from .peakfactors import Extreme, extreme
@@ -68,7 +69,7 @@ class RandomResponse:
         return self.waves.history(name).time
 
     def mean(self, name: str) -> np.ndarray:
-        """Return the mean, that of level track, shape (n,)."""
+        """Return the mean, that of the track without waves, shape (n,)."""
         return self.waves.history(name).level
 
     def sigma(self, name: str, component: str | None = None) -> np.ndarray:
@@ -169,6 +170,7 @@ def random_response(
     quantities: Sequence[str] = ("displacement_z",),
     points: Sequence[float] | None = None,
     wheels_of: Sequence[int] = (),
+    base: Track | None = None,
     progress: Callable[[str], None] | None = None,
     **options,
 ) -> RandomResponse:
@@ -187,6 +189,9 @@ def random_response(
         m along the deck; mid-span if not given.
     wheels_of : sequence of int
         Cars whose vertical wheel forces are asked for, too, while on the deck; from 1.
+    base : Track, optional
+        What is certain about the track, waves, dips or a measured record: the mean is the crossing
+        of that.
     progress : function of one text, optional
     **options
         As for `cross`: speed, time_step, loads, track_offset, ...; interaction = "rigid" for the
@@ -206,7 +211,7 @@ def random_response(
     track = _long_enough(train, deck, track, options.get("speed"))
     waves = unit_waves(
         train, deck, track.edges, components=track.components, quantities=quantities,
-        points=points, wheels_of=wheels_of, progress=progress, **options,
+        points=points, wheels_of=wheels_of, base=base, progress=progress, **options,
     )  # fmt: skip
     return RandomResponse(track, waves)
 

@@ -28,7 +28,7 @@ from ..decks import Deck
 from ..errors import InputError, brief, frozen
 from ..plans import CarSteps, plan
 from ..settings import Settings, check, refuse_bytes
-from ..tracks import Harmonic, Track
+from ..tracks import Harmonic, Rails, Track
 from ..trains import AnyTrain
 from ..vehicles import Vehicle
 from .outputs import OUTPUTS, Output, outputs_at
@@ -47,7 +47,7 @@ COMPONENTS = {
 
 @dataclass(frozen=True, eq=False)
 class UnitHistory:
-    """One quantity of a crossing: on level track, and what waves of 1 m add.
+    """One quantity of a crossing: on track without waves, and what waves of 1 m add.
 
     Attributes
     ----------
@@ -55,6 +55,7 @@ class UnitHistory:
     time : ndarray, shape (n,)
         s; zero when the first axle enters.
     level : ndarray, shape (n,)
+        Without waves.
     waves : ndarray, shape (components, n, 2 waves)
         Of every wave its cosine and its sine in turn, per m.
     """
@@ -115,6 +116,7 @@ def unit_waves(
     quantities: Sequence[str] = ("displacement_z",),
     points: Sequence[float] | None = None,
     wheels_of: Sequence[int] = (),
+    base: Track | None = None,
     progress: Callable[[str], None] | None = None,
     **options,
 ) -> UnitWaves:
@@ -134,9 +136,12 @@ def unit_waves(
         m along the deck; mid-span if not given.
     wheels_of : sequence of int
         Cars whose vertical wheel forces are kept, from 1.
+    base : Track, optional
+        What else the rails are off by, beneath the waves; level if not given. It has the run-up of
+        `cross`; the waves come from far.
     progress : function of one text, optional
     **options
-        As for `cross`, of which `lead_in` has no meaning: the waves come from far.
+        As for `cross`.
 
     Raises
     ------
@@ -148,27 +153,29 @@ def unit_waves(
         raise InputError("edges", edges, "must ascend and hold at least two wave numbers")
     components = _checked_components(components)
     outputs = outputs_at(deck, quantities, [deck.length / 2] if points is None else points)
-    settings = _settings(train, deck, float(edges[-1]), options)
+    base = Track() if base is None else errors.instance("base", base, Track)
+    settings = _settings(train, deck, base, float(edges[-1]), options)
     kept = [train.car(number).number - 1 for number in wheels_of]
     waves = len(edges) - 1
     _refuse_size(train, deck, settings, len(components) * waves, len(outputs), kept)
-    coupling = prepare(train, deck, Track(), settings)
+    coupling = prepare(train, deck, base, settings)
     steps = plan(coupling)
     if settings.interaction == "rigid":  # the wheels do not feel the deck
         still = {id(c): _without_feeling(c) for c in steps.cars}
         steps = replace(steps, cars=tuple(still[id(c)] for c in steps.cars))
-    lanes = _lanes(coupling, (edges[:-1] + edges[1:]) / 2, components)
+    felt = [c for c in components if _is_felt(coupling, float(edges[-1]), c)]
+    lanes = _lanes(coupling, (edges[:-1] + edges[1:]) / 2, felt)
     asking = _asking(coupling, outputs)
     found, wheels = step_waves(steps, lanes, asking, settings.time_step, kept, progress)
-    histories = {}
+    histories, shape = {}, (waves, components, felt)
     for output, own in zip(outputs, found, strict=True):
         name = f"{output.quantity} at {output.x:g} m"
-        histories[name] = _history(OUTPUTS[output.quantity], coupling.time, own, components)
+        histories[name] = _history(OUTPUTS[output.quantity], coupling.time, own, *shape)
     for i, own in wheels.items():
         time = coupling.time[own.first :][: own.forces.shape[1]]
         for number, forces in enumerate(own.forces, start=1):
             name = f"wheel_force_z of car {i + 1}, wheel {number}"
-            histories[name] = _history("N", time, forces, components)
+            histories[name] = _history("N", time, forces, *shape)
     return UnitWaves(train, deck, settings, frozen(edges), components, histories)
 
 
@@ -176,12 +183,39 @@ def _without_feeling(car: CarSteps) -> CarSteps:
     return replace(car, stiffness=0.0 * car.stiffness, damping=0.0 * car.damping)
 
 
+def _is_felt(coupling: Coupling, wavenumber: float, component: str) -> bool:
+    """Whether a component gives anything but lateral forces of a pair that cancel each other.
+
+    The two massless wheels of an axle hold the rails together against gauge: nothing else moves.
+    """
+    for c in coupling.cars:
+        forces = _forces(coupling, c.car.vehicle, np.array([wavenumber]), component)
+        forces = forces.reshape(-1, 2)
+        loads = np.tensordot(c.load_matrix, forces, 2)
+        largest = max(np.abs(loads).max(), np.abs(forces[:, 1]).max())
+        if largest > 1e-9 * np.abs(forces).max():
+            return True
+    return False
+
+
 def _history(
-    unit: str, time: np.ndarray, lanes: np.ndarray, components: Sequence[str]
+    unit: str,
+    time: np.ndarray,
+    lanes: np.ndarray,
+    count: int,
+    components: Sequence[str],
+    felt: Sequence[str],
 ) -> UnitHistory:
-    """Return a history from its lanes, shape (n, lanes)."""
-    waves = lanes[:, :-1].reshape(len(lanes), len(components), -1)
-    return UnitHistory(unit, time, lanes[:, -1].copy(), np.moveaxis(waves, 1, 0))
+    """Return a history from its lanes, shape (n, lanes), which only components that are felt have.
+
+    The others are nothing.
+    """
+    own = np.moveaxis(lanes[:, :-1].reshape(len(lanes), len(felt), 2 * count), 1, 0)
+    waves = own
+    if len(felt) < len(components):
+        waves = np.zeros((len(components), *own.shape[1:]))
+        waves[[components.index(component) for component in felt]] = own
+    return UnitHistory(unit, time, lanes[:, -1].copy(), waves)
 
 
 def _checked_components(components: Sequence[str]) -> tuple[str, ...]:
@@ -196,20 +230,23 @@ def _checked_components(components: Sequence[str]) -> tuple[str, ...]:
     return tuple(components)
 
 
-def _settings(train: AnyTrain, deck: Deck, largest: float, options: Mapping) -> Settings:
+def _settings(
+    train: AnyTrain, deck: Deck, base: Track, largest: float, options: Mapping
+) -> Settings:
     """Return the checked settings of a crossing whose shortest wave is that of a wave number."""
     if isinstance(train, AnyTrain) and not train.kinds():
         allowed = "bare axle loads do not feel the track"
         raise InputError("train", train, allowed, "Use a train of vehicles")
-    if isinstance(train, AnyTrain) and train.notches:
-        allowed = "has wheels with notches, which are no waves of the track"
-        raise InputError("train.notches", train.notches, allowed, "Leave them out")
-    for name in ("lead_in", "iterations", "relaxation", "max_iterations", "tolerance_of"):
+    for name in ("iterations", "relaxation"):
         if options.get(name) is not None:
-            allowed = "has no meaning here: waves come from far, and are solved without passes"
+            allowed = "has no meaning here: waves are solved without passes"
             raise InputError(name, options[name], allowed, "Leave it out")
-    shortest = Track(vertical=Harmonic(1.0, wavelength=2 * np.pi / largest))
-    settings = check(train, deck, shortest, **options)
+    sides = {
+        side: [base.rail("vertical", side), Harmonic(1.0, wavelength=2 * np.pi / largest)]
+        for side in ("left", "right")
+    }
+    track = Track(vertical=Rails(**sides), lateral=base.lateral)
+    settings = check(train, deck, track, **options)
     if settings.contact != "permanent":
         allowed = "is not linear, and waves can be added up on linear contacts only"
         raise InputError("contact", settings.contact, allowed, "Use contact = 'permanent'")
@@ -237,31 +274,25 @@ def _refuse_size(
 
 def _lanes(coupling: Coupling, wavenumbers: np.ndarray, components: Sequence[str]) -> Waves:
     """Return what every wave of every component gives the wheels on a rigid deck."""
-    settings = coupling.settings
     known: dict[int, np.ndarray] = {}
-    forces, static = [], []
+    forces = []
     for c in coupling.cars:
         vehicle = c.car.vehicle
         if id(vehicle) not in known:
-            known[id(vehicle)] = np.concatenate(
-                [
-                    wave_forces(
-                        vehicle,
-                        wavenumbers,
-                        name,
-                        settings.speed,
-                        settings.time_step,
-                        settings.excitation,
-                    )
-                    for name in components
-                ],
-                axis=1,
-            )
+            own = [_forces(coupling, vehicle, wavenumbers, name) for name in components]
+            none = np.zeros((2 * len(vehicle.contacts), 0))
+            known[id(vehicle)] = np.concatenate([none, *own], axis=1)
         entry = np.exp(-1j * np.tile(wavenumbers, len(components)) * c.car.centre)
         forces.append(np.ascontiguousarray(known[id(vehicle)] * entry))
-        static.append(c.static.ravel())
-    rates = np.tile(wavenumbers * settings.speed, len(components))
-    return Waves(rates, tuple(forces), tuple(static), float(coupling.time[0]))
+    rates = np.tile(wavenumbers * coupling.settings.speed, len(components))
+    return Waves(rates, tuple(forces), float(coupling.time[0]))
+
+
+def _forces(
+    coupling: Coupling, vehicle: Vehicle, wavenumbers: np.ndarray, component: str
+) -> np.ndarray:
+    s = coupling.settings
+    return wave_forces(vehicle, wavenumbers, component, s.speed, s.time_step, s.excitation)
 
 
 def wave_forces(

@@ -29,7 +29,9 @@ BLOCK = 64
 
 @dataclass(frozen=True, eq=False)
 class Waves:
-    """What the lanes carry: waves of unit size, their cosine and their sine in turn, and no wave.
+    """What the lanes carry: waves of unit size, their cosine and their sine in turn.
+
+    The last lane has no wave, but the static forces and what the plan knows besides.
 
     Attributes
     ----------
@@ -37,15 +39,12 @@ class Waves:
         W V, rad/s.
     forces : tuple of ndarray, shape (d, waves), complex
         Of every car the wheel forces on a rigid deck, N, at t = 0.
-    static : tuple of ndarray, shape (d,)
-        Of every car the static wheel forces, N: those of the last lane, which has no wave.
     start : float
         Time of the first sample, s.
     """
 
     rates: np.ndarray
     forces: tuple[np.ndarray, ...]
-    static: tuple[np.ndarray, ...]
     start: float
 
     @property
@@ -86,7 +85,7 @@ class Wheels:
     first : int
         Sample of the first.
     forces : ndarray, shape (wheels, n, lanes)
-        N on the deck; the static part in the last lane only.
+        N on the deck; all that is no wave's in the last lane only.
     """
 
     first: int
@@ -106,7 +105,7 @@ def step_waves(
     Parameters
     ----------
     plan : Plan
-        Of the train on level track, on permanent contact.
+        Of the train on permanent contact, on the track without these waves.
     waves : Waves
     asking : Asking
     time_step : float
@@ -127,7 +126,7 @@ def step_waves(
     wheels = {
         i: Wheels(
             int(plan.windows[i, 0]),
-            np.zeros((len(waves.static[i]) // 2, int(np.diff(plan.windows[i])[0]), lanes)),
+            np.zeros((len(plan.known[i]) // 2, int(np.diff(plan.windows[i])[0]), lanes)),
         )
         for i in cars
     }
@@ -204,15 +203,20 @@ class _Rolling:
 
     def __init__(self, car: CarSteps, lanes: int) -> None:
         self.onward, self.shown = _real(car)
-        self.states = len(self.onward)
-        self.both = np.zeros((self.onward.shape[1], lanes))
         self.known = np.zeros((len(self.shown), lanes))
         self.direct = car.direct
-        self.u = self.both[self.states :]
+        # Two, so that one is filled from the other without a copy.
+        self.both, self._next = np.zeros((2, self.onward.shape[1], lanes))
+
+    @property
+    def u(self) -> np.ndarray:
+        """U, shape (d, lanes)."""
+        return self.both[len(self.onward) :]
 
     def step(self) -> None:
         """Go on to the next sample."""
-        self.both[: self.states] = self.onward @ self.both
+        np.matmul(self.onward, self.both, out=self._next[: len(self.onward)])
+        self.both, self._next = self._next, self.both
 
 
 def _onward(plan: Plan) -> np.ndarray:
@@ -256,6 +260,7 @@ class _Block:
         acting = np.concatenate(
             [np.concatenate(own, axis=1) for own in (under[:half], under[half:])], axis=2
         )
+        self.known = plan.known[car][:, span[0] - start : span[1] - start]
         self.back = acting.transpose(0, 2, 1) @ steps.loads
         through = self.back @ steps.direct @ self.per
         self.coupled, self.standing = through[:, :modes], through[:, modes:]
@@ -268,14 +273,15 @@ class _Block:
         known = kind.known
         np.matmul(kind.shown, kind.both, out=known)
         known[:, :-1] += (waves.forces[self.car] * turn).view(float)
-        known[:, -1] += waves.static[self.car]
+        known[:, -1] += self.known[:, n - self.first]
         return self.back[n - self.first] @ known
 
     def go_on(self, kind: _Rolling, n: int, new: np.ndarray, still: bool) -> np.ndarray:
         """Let the wheels feel the deck's new forces; return what that adds to what is asked."""
         if still:
             return np.zeros((self.standing.shape[1], new.shape[1]))
-        np.add(kind.u, self.per[n - self.first] @ new, out=kind.u)
+        u = kind.u
+        u += self.per[n - self.first] @ new
         return self.standing[n - self.first] @ new
 
     def force(self, kind: _Rolling, n: int, new: np.ndarray, still: bool) -> np.ndarray:
