@@ -72,9 +72,11 @@ def resonances(f_1, distance, low, high):
 
 
 def deviation(answer, x, wavenumbers, powers):
-    pairs = [(answer(np.cos(w * x)), answer(np.sin(w * x))) for w in wavenumbers]
-    return [np.sqrt(sum(s * (c[i] ** 2 + q[i] ** 2) for s, (c, q) in zip(powers, pairs, strict=True)))
-            for i in range(len(x))]  # fmt: skip
+    total = np.zeros(len(x))
+    for w, s in zip(wavenumbers, powers, strict=True):
+        turned = answer(np.cos(w * x)) + 1j * answer(np.sin(w * x))
+        total += s * np.abs(turned) ** 2
+    return total**0.5
 
 
 def hertz(depth, load, stiffness):
