@@ -397,6 +397,7 @@ class Guideway:
         And their shapes, as met on the rail, as components of one function.
         """
         met = self.under_rail(self.shapes)
-        component, mode = np.nonzero(np.any(met.coefficients != 0.0, axis=(0, 1)).T)
+        found = np.nonzero(np.any(met.coefficients != 0.0, axis=(0, 1)).T)
+        component, mode = map(np.ascontiguousarray, found)
         coefficients = np.ascontiguousarray(met.coefficients[:, :, None, mode, component])
         return (mode, component), PiecewiseCubic(met.edges, coefficients)

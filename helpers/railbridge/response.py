@@ -331,7 +331,7 @@ class SampledResponse:
         outputs = len(right) * _BLOCK
         rows = [m.reshape(-1, outputs) for m in (through, free.real, -free.imag)]
         gain = (left.T[:, None] * carried.T).reshape(-1, len(poles))
-        return np.vstack(rows), np.hstack([gain.real, gain.imag]), powers[:, -1]
+        return np.vstack(rows), np.hstack([gain.real, gain.imag]), powers[:, -1].copy()
 
 
 @dataclass(frozen=True)
@@ -431,7 +431,12 @@ def sampled_modes(omega: np.ndarray, ratio: np.ndarray, time_step: float) -> Sam
     others = {
         int(m): oscillator(omega[m], ratio[m]).sampled(time_step) for m in np.flatnonzero(special)
     }
-    return SampledModes(swings, first, np.moveaxis(gain, 0, -1), powers[..., -1], within, others)
+    # As they come back from another process: products of arrays in another order differ in the last
+    # digit on some processors.
+    gain, decay, within = map(
+        np.ascontiguousarray, (np.moveaxis(gain, 0, -1), powers[..., -1], within)
+    )
+    return SampledModes(swings, first, gain, decay, within, others)
 
 
 def _pulse(

@@ -124,8 +124,10 @@ class Mesh:
         self.phi = {
             name: np.full(count, beam.shear_flexibility(name)) * 12.0 / self.h**2 for name in FIELDS
         }
+        # Laid out as they come back from another process, where products must give the same digits.
         self.shapes = {
-            name: elements.shape_matrices(name, self.h, self.phi[name]) for name in FIELDS
+            name: np.ascontiguousarray(elements.shape_matrices(name, self.h, self.phi[name]))
+            for name in FIELDS
         }
 
     def node(self, x: float, piece: int | None = None) -> int:

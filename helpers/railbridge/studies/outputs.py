@@ -85,7 +85,8 @@ def _output(deck: Deck, quantity: str, x: float) -> Output:
         component = list(ACCELERATIONS).index(quantity)
         if not list(deck.has.values())[component]:
             raise InputError("quantities", quantity, "the deck does not move that way")
-        return Output(quantity, x, deck.shapes(np.array([x]))[0, :, component], None)
+        modal = deck.shapes(np.array([x]))[0, :, component].copy()
+        return Output(quantity, x, modal, None)
     line = deck.recovery.section(quantity, x)
     if line is None:
         allowed = deck.recovery.lacks or "the deck has no such stiffness"
