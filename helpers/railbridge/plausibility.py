@@ -502,7 +502,9 @@ def _of_track(track: Track) -> list[InputWarning]:
 def _on_one_rail(train: AnyTrain, track: Track) -> list[InputWarning]:
     """Doubt rails that differ below wheels at y = 0, which all stand on the left one."""
     found = []
-    for column, (direction, apart) in enumerate((("lateral", "gauge"), ("vertical", "cross-level"))):
+    for column, (direction, apart) in enumerate(
+        (("lateral", "gauge"), ("vertical", "cross-level"))
+    ):
         if track.rail(direction, "left") == track.rail(direction, "right"):
             continue
         names = [
