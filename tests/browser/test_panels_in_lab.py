@@ -58,6 +58,10 @@ def largest_acceleration(said, value):
     return f"{value:.2f} m/s2" in said
 
 
+def rarely_exceeded(said, value):
+    return f"one crossing in twenty exceeds {value:.2f} m/s2" in said
+
+
 SAID = {
     "00_start_here": displacement_at_iteration,
     "02_irregularities": forcing_frequency,
@@ -66,6 +70,7 @@ SAID = {
     "05_deck_response": largest_displacement,
     "06_fixed_point_iteration": displacement_at_iteration,
     "07_speed_and_wavelength": displacement_of_the_dot,
+    "10_random_track": rarely_exceeded,
     "13_beyond_the_paper": largest_acceleration,
 }
 

@@ -153,3 +153,16 @@ def test_a_frame_of_the_rails():
     assert list(frame.columns) == ["vertical_left (mm)", "vertical_right (mm)"]
     assert frame.index.name == "x (m)" and frame.index[0] == -100.0
     assert frame.iloc[10, 0] == pytest.approx(1e3 * wave(10.0)[10])
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_a_few_rows_are_refused_in_words(count):
+    # One row was a failure of linear algebra.
+    with pytest.raises(rb.InputError, match="at least four samples"):
+        record_of("few", X[:count], {"vertical": wave(5.0)[:count]})
+
+
+def test_a_band_far_longer_than_the_record_is_refused():
+    # 1e9 m asked for 128 GiB.
+    with pytest.raises(rb.InputError, match="10 times the record, 1000 m"):
+        record_of("long", X, {"vertical": wave(5.0)}, band=(3.0, 1e9))

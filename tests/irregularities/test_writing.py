@@ -55,3 +55,14 @@ def test_what_cannot_be_written_is_refused(arguments, words, tmp_path, monkeypat
     with pytest.raises(rb.InputError, match=words):
         rb.export_track(*arguments)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_record_is_not_written_beyond_its_ends(tmp_path):
+    # It was level there, at the value of its end, and read back as measured.
+    track = rb.track_record("example_record").track
+    first, last = track.rail("vertical", "left").extent
+    rb.export_track(track, tmp_path / "whole.csv", first, last)
+    for ends in ((first - 1.0, last), (first, last + 1.0)):
+        with pytest.raises(rb.InputError, match="known from"):
+            rb.export_track(track, tmp_path / "beyond.csv", *ends)
+    assert not (tmp_path / "beyond.csv").exists()

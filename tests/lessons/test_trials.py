@@ -71,6 +71,14 @@ def resonances(f_1, distance, low, high):
     return [f_1 * distance / i for i in range(last, max(first, 1) - 1, -1)]
 
 
+def deviation(answer, x, wavenumbers, powers):
+    total = np.zeros(len(x))
+    for w, s in zip(wavenumbers, powers, strict=True):
+        turned = answer(np.cos(w * x)) + 1j * answer(np.sin(w * x))
+        total += s * np.abs(turned) ** 2
+    return total**0.5
+
+
 def hertz(depth, load, stiffness):
     at_rest = 1.5 * load / stiffness
     return [load * (d / at_rest) ** 1.5 if d > 0.0 else 0.0 for d in depth]
@@ -80,7 +88,7 @@ WRITTEN = {
     f.__name__: f
     for f in (
         frequencies, notch_shape, condense, rayleigh_coefficients, static_moment, fixed_point,
-        one_force, lever_rule, resonances, hertz,
+        one_force, lever_rule, resonances, deviation, hertz,
     )
 }  # fmt: skip
 
@@ -136,6 +144,20 @@ def test_each_trial_is_passed_by_a_function_written_here():
             lambda a, f, x, L: sum(f * np.where(a <= x, a * (L - x), x * (L - a)) / L),
             "Case 3, .*loads off the span count",
         ),
+        ("deviation", lambda *a: np.array(deviation(*a)) ** 2, "Case 1, .*root at the end"),
+        (
+            "deviation",
+            lambda f, x, w, s: np.sqrt(s @ np.array([f(np.cos(k * x)) ** 2 for k in w])),
+            "cosines alone",
+        ),
+        (
+            "deviation",
+            lambda f, x, w, s: np.sqrt(
+                s @ np.array([(f(np.cos(k * x)) + f(np.sin(k * x))) ** 2 for k in w])
+            ),
+            "each by itself",
+        ),
+        ("deviation", lambda f, x, w, s: deviation(f, x, w, 2 * s), "root of two off"),
         ("fixed_point", lambda f, x: steps(f, x, lambda change: change < 1e-10), "negative"),
         ("fixed_point", lambda f, x: steps(f, x, lambda change: abs(change) < 1e-3), "too early"),
         ("fixed_point", lambda f, x: f(x), "after one step"),

@@ -9,7 +9,7 @@ from railbridge.panels.code import case_lines
 
 NAMES = [
     "irregularities", "rigid_forces", "deck_modes", "deck_response", "fixed_point",
-    "map_and_crossing", "overview", "wheels_with_mass",
+    "map_and_crossing", "overview", "random_track", "wheels_with_mass",
 ]  # fmt: skip
 
 
@@ -31,7 +31,7 @@ def test_the_code_is_short_and_plain_and_draws(all_panels, name):
     # One that starts far from the paper's case is written out, a table a line.
     far = "rb.Case({" in code
     assert 8 <= len(lines) <= 14 and max(map(len, lines)) <= (100 if far else 88)
-    assert far == (name == "wheels_with_mass")
+    assert far == (name in ("random_track", "wheels_with_mass"))
     assert lines[0] == "import railbridge as rb"
     assert far or 'rb.case("paper").replace({' in code
     assert "rb.plots." in code

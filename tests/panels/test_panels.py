@@ -16,7 +16,7 @@ from railbridge import panels
 
 NAMES = [
     "irregularities", "rigid_forces", "deck_modes", "deck_response", "fixed_point",
-    "map_and_crossing", "overview", "wheels_with_mass",
+    "map_and_crossing", "overview", "random_track", "wheels_with_mass",
 ]  # fmt: skip
 QUICK = {"run.time_step": None, "train.cars": 2}
 
@@ -50,13 +50,19 @@ def test_controls_stand_in_a_fixed_order(all_panels):
         assert known == sorted(known, key=order.index), name
 
 
+def moved(panel, wavelength):
+    """What else is moved beside the speed: a random track has waves of every length."""
+    return {"wavelength": wavelength} if "wavelength" in panel.controls else {"sigma": 2e-3}
+
+
 def test_moving_a_control_changes_picture_and_words_and_paper_case_restores(panel):
     image, words = png(panel), panel.summary
     assert image.startswith(b"\x89PNG")
-    panel.set(speed=22.0, wavelength=12.0)
+    panel.set(speed=22.0, **moved(panel, 12.0))
     assert png(panel) != image
     assert panel.summary != words
-    assert panel.summary.startswith("22.0 m/s (79.2 km/h), 12.0 m waves")
+    waves = "12.0 m waves" if "wavelength" in panel.controls else "german-low with 2.0 mm in D1"
+    assert panel.summary.startswith(f"22.0 m/s (79.2 km/h), {waves}")
     assert panel.case.get("run.speed") == 22.0
     panel.paper_button.click()
     assert panel.summary == words
@@ -81,9 +87,9 @@ def limits(panel):
 def test_a_case_has_its_own_limits_whatever_was_shown_before(panel):
     panel.set(speed=21.0)
     shown = limits(panel)
-    panel.set(speed=60.0, wavelength=4.0).set(speed=5.0, wavelength=30.0).set(**panel.start).set(
-        speed=21.0
-    )
+    slowest = panel.controls["speed"].low
+    panel.set(speed=60.0, **moved(panel, 4.0)).set(speed=slowest, **moved(panel, 30.0))
+    panel.set(**panel.start).set(speed=21.0)
     assert limits(panel) == shown
 
 
@@ -297,7 +303,7 @@ def test_a_coarser_step_that_the_case_does_not_allow_is_not_taken():
 
 def test_artists_are_moved_not_added(panel):
     counts = [len(ax.get_children()) for ax in panel.figure.axes]
-    panel.set(speed=40.0, wavelength=10.0)
+    panel.set(speed=40.0, **moved(panel, 10.0))
     assert [len(ax.get_children()) for ax in panel.figure.axes] == counts
 
 
@@ -443,7 +449,8 @@ def test_labels_say_what_a_control_changes_and_in_which_unit(all_panels):
     labels = {
         "speed": "speed (m/s)", "wavelength": "wavelength (m)", "amplitude": "amplitude (mm)",
         "cars": "cars", "iteration": "iteration", "loads": "loads", "mode": "mode",
-            "contact": "contact",
+            "contact": "contact", "sigma": "sigma in D1 (mm)", "spectrum": "spectrum",
+        "interaction": "deck",
         "damping_ratio": "damping (%)", "first_frequency": "at first (Hz)",
         "second_frequency": "and second (Hz)", "place": "first axle (m)",
     }  # fmt: skip

@@ -67,6 +67,8 @@ PAGES = {
     # Every table and result of the paper, each with its picture and its layout.
     "08": Page((GOALS, CHECK, FOUND, REFERENCES), (500, 3100), (20, 320), (), ("You need", "Time")),
     "09": Page((GOALS, CHECK, EXERCISES, FOUND, REFERENCES, SYMBOLS), (500, 3000), (20, 280)),
+    # Two subjects: what a random track is, and what can be said of a crossing of it.
+    "10": Page(words=(500, 2000), code_lines=(40, 180)),
     # The other program that the page needs is written out on it.
     "12": Page(code_lines=(40, 170)),
     # Two models, and how the box behind them was found.

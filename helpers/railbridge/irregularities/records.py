@@ -15,7 +15,7 @@ from .. import errors
 from ..errors import InputError, brief
 from ..tracks import Rails, Track
 from .repairs import Samples, checked_repairs, mended
-from .resampling import LEAST_PER_WAVE, band_limited, even
+from .resampling import LEAST_PER_WAVE, band_limited, even, refuse_few
 from .writing import write_columns
 
 __all__ = [
@@ -29,6 +29,8 @@ LARGEST_STEP, LARGEST_DRIFT = 5e-3, 0.02
 """m, between neighbours and from end to end; more is refused or mended."""
 _HIGHEST = 0.5
 """m; more is no irregularity."""
+_LONGEST = 10.0
+"""Lengths of a record; of longer waves it tells nothing, and they would need much memory."""
 COLUMNS = {
     "vertical": ("vertical_left", "vertical_right", "vertical", "cross_level"),
     "lateral": ("lateral_left", "lateral_right", "alignment", "gauge"),
@@ -243,6 +245,7 @@ def record_of(
             allowed = f"reaches {high:.4g} m, must be at most {_HIGHEST:g} m"
             remedy = "Correct the unit; of gauge give what it is wider than the nominal one"
             raise InputError(column, None, allowed, remedy)
+    refuse_few(samples.place)
     samples = mended(samples, words, *limits)
     first, step, kept = even(samples.place, dict(samples.columns))
     ends = first, first + step * (len(next(iter(kept.values()))) - 1)
@@ -253,6 +256,10 @@ def record_of(
         allowed = f"begins with waves of less than {LEAST_PER_WAVE} samples, {step:.4g} m apart"
         remedy = f"Begin with {LEAST_PER_WAVE * step:.4g} m or more"
         raise InputError("band", list(waves), allowed, remedy)
+    length = ends[1] - ends[0]
+    if waves is not None and waves[1] > _LONGEST * length:
+        allowed = f"ends with waves of more than {_LONGEST:g} times the record, {length:.4g} m"
+        raise InputError("band", list(waves), allowed, 'End with shorter waves, or give "all"')
     for column, r in kept.items():
         left = r if waves is None else band_limited(r, step, waves)
         losses.append(Loss(column, float(np.var(r)), float(np.var(left))))

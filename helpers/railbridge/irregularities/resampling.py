@@ -7,7 +7,7 @@ from scipy.interpolate import CubicSpline
 
 from ..errors import InputError
 
-__all__ = ["LEAST_PER_WAVE", "band_limited", "even"]
+__all__ = ["LEAST_PER_WAVE", "band_limited", "even", "refuse_few"]
 
 LEAST_PER_WAVE = 4
 """Samples in the shortest wave of the band: the slope of a cubic spline is then within 5 %."""
@@ -15,6 +15,12 @@ _ROLL_OFF = 0.5
 """Octaves outside of the band over which the gain falls from one to zero."""
 _EVEN = 1e-6
 """Share of the spacing by which places of an even grid may be off."""
+
+
+def refuse_few(place: np.ndarray) -> None:
+    """Refuse fewer samples than a cubic spline needs."""
+    if len(place) < 4:
+        raise InputError("rows", len(place), "must be at least four samples")
 
 
 def even(place: np.ndarray, columns: dict[str, np.ndarray]) -> tuple[float, float, dict]:
@@ -34,8 +40,7 @@ def even(place: np.ndarray, columns: dict[str, np.ndarray]) -> tuple[float, floa
     InputError
         Fewer than four samples.
     """
-    if len(place) < 4:
-        raise InputError("rows", len(place), "must be at least four samples")
+    refuse_few(place)
     step = (place[-1] - place[0]) / (len(place) - 1)
     grid = place[0] + step * np.arange(len(place))
     if np.max(np.abs(place - grid)) <= _EVEN * step:

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import errors
 from ..errors import InputError
-from ..tracks import Level, Track
+from ..tracks import Level, Track, extent_of
 
 __all__ = ["export_track", "write_columns"]
 
@@ -37,7 +37,8 @@ def export_track(
     Raises
     ------
     InputError
-        A perfect track, places that do not ascend, or a file that cannot be written.
+        A perfect track, places that do not ascend or where a measured track is not known, or a file
+        that cannot be written.
     """
     errors.instance("track", track, Track)
     first = errors.number("first", first, unit="m")
@@ -46,6 +47,14 @@ def export_track(
     if (last - first) / step > _MOST:
         raise InputError("step", step, f"makes more than {_MOST} samples", "Use a larger step")
     x = first + step * np.arange(int((last - first) / step + 1e-9) + 1)
+    for direction in ("vertical", "lateral"):
+        for side in ("left", "right"):
+            known = extent_of(track.rail(direction, side))
+            if first < known[0] - 1e-9 * step or x[-1] > known[1] + 1e-9 * step:
+                name = "first" if first < known[0] else "last"
+                value = first if first < known[0] else last
+                allowed = f"the track is known from {known[0]:.6g} m to {known[1]:.6g} m only"
+                raise InputError(name, value, allowed)
     columns = {
         f"{direction}_{side}": track.rail(direction, side).value(x)
         for direction in ("vertical", "lateral")

@@ -403,6 +403,42 @@ def _that_pulls(depth: np.ndarray, load: float, stiffness: float) -> np.ndarray:
     return load * np.sign(share) * np.abs(share) ** 1.5
 
 
+def _deviation() -> list[Case]:
+    # Each system is one that leaves of a wave exp(i W x) a known size at every place.
+    d = 0.25
+    x = d * np.arange(121)
+    waves, powers = np.array([0.21, 0.5, 1.3, 2.9]), np.array([4e-6, 1e-6, 3e-7, 2e-8])
+    window = np.sin(np.pi * x / x[-1]) ** 2
+
+    def from_the_last(r: np.ndarray) -> np.ndarray:
+        return np.diff(r, prepend=r[0])
+
+    sizes = np.where(x > 0.0, 4 * np.sin(waves[:, None] * d / 2) ** 2, 0.0)
+    rows = [
+        ("the height itself", np.copy, np.ones((4, len(x)))),
+        ("felt on a bridge only", lambda r: 3.0 * window * r, np.tile(9.0 * window**2, (4, 1))),
+        ("the difference from the place before", from_the_last, sizes),
+    ]
+    return [
+        Case(words, (answer, x, waves, powers), np.sqrt(powers @ squares))
+        for words, answer, squares in rows
+    ]
+
+
+def _variance(answer: Callable, x: np.ndarray, waves: np.ndarray, powers: np.ndarray) -> Any:
+    pairs = [answer(np.cos(w * x)) ** 2 + answer(np.sin(w * x)) ** 2 for w in waves]
+    return powers @ np.array(pairs)
+
+
+def _cosines_only(answer: Callable, x: np.ndarray, waves: np.ndarray, powers: np.ndarray) -> Any:
+    return np.sqrt(powers @ np.array([answer(np.cos(w * x)) ** 2 for w in waves]))
+
+
+def _phases_together(answer: Callable, x: np.ndarray, waves: np.ndarray, powers: np.ndarray) -> Any:
+    pairs = [(answer(np.cos(w * x)) + answer(np.sin(w * x))) ** 2 for w in waves]
+    return np.sqrt(powers @ np.array(pairs))
+
+
 TRIALS = {
     "frequencies": Trial(
         _frequencies,
@@ -440,6 +476,20 @@ TRIALS = {
     "lever_rule": Trial(_lever_rule),
     "resonances": Trial(
         _resonances, slips=(Slip(_descending, "they descend: sort them, the smallest first."),)
+    ),
+    "deviation": Trial(
+        _deviation,
+        slips=(
+            Slip(_variance, "that is the variance: take the root at the end."),
+            Slip(
+                _cosines_only,
+                "that is the cosines alone: at some places they are zero. Add the sines' squares.",
+            ),
+            Slip(
+                _phases_together,
+                "square what cosine and sine give each by itself, and add the squares then.",
+            ),
+        ),
     ),
     "hertz": Trial(
         _hertz,

@@ -22,9 +22,10 @@ from .notebook_panels import (
     rigid_forces,
 )
 from .panel import FALLBACK, Panel
+from .randomtrack import random_track
 from .wheels import wheels_with_mass
 
 __all__ = [
     "FALLBACK", "Control", "Panel", "deck_modes", "deck_response", "fixed_point", "irregularities",
-    "map_and_crossing", "overview", "rigid_forces", "wheels_with_mass",
+    "map_and_crossing", "overview", "random_track", "rigid_forces", "wheels_with_mass",
 ]  # fmt: skip

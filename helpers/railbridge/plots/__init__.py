@@ -18,6 +18,7 @@ from .motion import (
     animate_rigid_and_flexible,
     animate_vehicle_mode,
 )
+from .randomtracks import extremes, random_response, track_spectra, wave_shares
 from .response import (
     acceleration,
     convergence,
@@ -38,9 +39,9 @@ from .track import frequencies, irregularity, notch, slope, wheel_paths, wheels_
 __all__ = [
     "acceleration", "animate_car_on_waves", "animate_crossing", "animate_rigid_and_flexible",
     "animate_vehicle_mode", "assurance", "box_section", "car_forces", "convergence", "damping",
-    "deck_mode", "deck_modes", "deviations", "diagram", "displacement", "envelope", "frequencies",
-    "influence_line", "irregularity", "iterations", "load_modes", "map", "notch", "reactions",
-    "section_force", "shell_mode", "shell_modes", "slope", "spectra", "spectrum", "train_on_deck",
-    "vehicle", "vehicle_mode", "velocity", "wheel_force", "wheel_forces", "wheel_paths",
-    "wheels_on_track",
+    "deck_mode", "deck_modes", "deviations", "diagram", "displacement", "envelope", "extremes",
+    "frequencies", "influence_line", "irregularity", "iterations", "load_modes", "map", "notch",
+    "random_response", "reactions", "section_force", "shell_mode", "shell_modes", "slope",
+    "spectra", "spectrum", "track_spectra", "train_on_deck", "vehicle", "vehicle_mode", "velocity",
+    "wave_shares", "wheel_force", "wheel_forces", "wheel_paths", "wheels_on_track",
 ]  # fmt: skip

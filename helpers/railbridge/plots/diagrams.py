@@ -322,6 +322,44 @@ def _exchange() -> Drawing:
     return d
 
 
+def _random() -> Drawing:
+    d = Drawing(900, 215, "A spectrum makes a track, the track shakes a car, the car a deck.")
+    top, bottom, level = 40, 150, 112
+    fall = [(30 + 1.3 * i, bottom - 95 / (1 + 0.0016 * i * i)) for i in range(0, 116, 5)]
+    d.arrow((24, bottom), (196, bottom))
+    d.arrow((24, bottom), (24, top - 6))
+    d.line(*fall, colour=MOVES, width=2.2)
+    sizes = ((52, 9, 0.4), (31, 6, 2.0), (19, 4, 4.1), (11, 2, 1.0))
+    places = range(250, 411, 2)
+
+    def rail(x: float) -> float:
+        return level - sum(size * sin(2 * pi * x / long + phase) for long, size, phase in sizes)
+
+    d.ground([(x, rail(x)) for x in places], colour=MOVES)
+    d.box(482, 40, 130, 32)
+    for x in (505, 589):
+        d.box(x - 22, 86, 44, 10)
+        d.spring(x, 72, 86, half=4)
+        for axle in (x - 15, x + 15):
+            d.wheel_set(axle, 118, radius=9.0)
+            d.arrow((axle, 121), (axle, bottom), colour=PUSHES)
+    steps = [i / 40 for i in range(41)]
+    for shift in (-13, 0, 13):
+        sag = [(700 + 180 * s, 70 + (56 + shift) * sin(pi * s) ** 2) for s in steps]
+        d.line(*sag, colour=MOVES, width=2.2 if shift == 0 else 1.0, dashed=shift != 0)
+    for x in (204, 424, 636):
+        d.arrow((x, 95), (x + 36, 95))
+    for x, words in (
+        (110, "spectrum of the track"),
+        (330, "many tracks *r*(*x*)"),
+        (547, "wheel forces"),
+        (790, "mean and *\u03c3*, by time"),
+    ):
+        d.text(x, 195, words, anchor="middle")
+    d.text(110, 30, "S_r over *\u03a9*", anchor="middle")
+    return d
+
+
 DIAGRAMS: dict[str, Callable[[], Drawing]] = {
     "vehicle": _vehicle,
     "track": _track,
@@ -331,5 +369,6 @@ DIAGRAMS: dict[str, Callable[[], Drawing]] = {
     "loop": _loop,
     "condensed": _condensed,
     "exchange": _exchange,
+    "random": _random,
 }
 """The diagrams by name."""

@@ -13,16 +13,16 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Polygon, Rectangle
 
 from ..errors import InputError
 from .style import GREY, SHADE, style_of
 
 __all__ = [
-    "FIGURE_WIDTH", "PLACE_LABEL", "TIME_LABEL", "axes_or_new", "axes_or_new_grid", "curve",
-    "keep_limits", "label_axes", "leave_behind", "log_frequencies", "note", "numbers_up_to",
-    "quantity_curve", "reuse_artists", "reuses_artists", "round_down", "round_up", "shade",
-    "small_multiples", "vertical_lines",
+    "FIGURE_WIDTH", "PLACE_LABEL", "TIME_LABEL", "axes_or_new", "axes_or_new_grid", "band",
+    "curve", "keep_limits", "label_axes", "leave_behind", "log_frequencies", "note",
+    "numbers_up_to", "quantity_curve", "reuse_artists", "reuses_artists", "round_down", "round_up",
+    "shade", "small_multiples", "vertical_lines",
 ]  # fmt: skip
 
 FIGURE_WIDTH = 9.0  # inch, 900 px in a notebook
@@ -173,6 +173,20 @@ def shade(ax: Axes, name: str, start: float, stop: float, label: str | None = No
         ax.add_patch(artist)
     artist.set_x(start)
     artist.set_width(stop - start)
+    artist.set_label(f"_{name}" if label is None else label)
+
+
+def band(
+    ax: Axes, name: str, x, low, high, colour: str, label: str | None = None, zorder: float = 1.8
+) -> None:
+    """Fill what lies between two curves, or move the band of that name."""
+    corners = np.column_stack([np.concatenate([x, x[::-1]]), np.concatenate([low, high[::-1]])])
+    artist = _artist_named(ax, name)
+    if artist is None:
+        artist = Polygon(corners, fc=colour, ec="none", alpha=0.25, zorder=zorder)
+        artist.set_gid(name)
+        ax.add_patch(artist)
+    artist.set_xy(corners)
     artist.set_label(f"_{name}" if label is None else label)
 
 

@@ -121,6 +121,15 @@ class RandomResponse:
         ----------
         name : str
         side : {"largest", "smallest", "magnitude"}
+
+        Notes
+        -----
+        Against ensembles of 2000 (mean extreme, three planar cars on 36 m): wheel forces within 0.1
+        standard deviations of the process. What rings in one mode comes out too large, on the safe
+        side: accelerations by 0.1 to 0.9 (1 to 9 %, the most at 0.5 % damping), displacements and
+        moments by 0.02 to 0.5, their standard deviation too small by up to a third; the 95 %
+        percentile is within 0.3. Wrong, by two standard deviations too large, where the answer
+        jumps: shear, and torsion, at a point that wheels pass. `ensemble` has none of this.
         """
         own = self.waves.history(name)
         sigma, of_rate, together = self._moments(name)
