@@ -42,7 +42,7 @@ def main():
         one = best(one_run, train, deck, track, repeats=3)
         count = len(track.wavenumbers) * len(track.components)
         print(
-            f"\n{words}, {count} waves: {waves:.1f} s for all, {drawn:.2f} s for "
+            f"\n{words}, {count} waves: {waves:.1f} s, {drawn:.2f} s for "
             f"{REALISATIONS} realisations   one run {one:.2f} s, {REALISATIONS} of them "
             f"{REALISATIONS * one / (waves + drawn):.1f} times as long; waves are {waves / one:.0f} "
             f"runs, a further realisation {one * REALISATIONS / drawn:.0f} times as fast"
