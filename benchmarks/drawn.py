@@ -43,8 +43,8 @@ def main():
         count = len(track.wavenumbers) * len(track.components)
         print(
             f"\n{words}, {count} waves: {waves:.1f} s, {drawn:.2f} s for "
-            f"{REALISATIONS} realisations   one run {one:.2f} s, {REALISATIONS} of them "
-            f"{REALISATIONS * one / (waves + drawn):.1f} times as long; waves are {waves / one:.0f} "
+            f"{REALISATIONS} realisations   one run {one:.2f} s, as many "
+            f"{REALISATIONS * one / (waves + drawn):.1f} times as long; waves {waves / one:.0f} "
             f"runs, a further realisation {one * REALISATIONS / drawn:.0f} times as fast"
         )
 
