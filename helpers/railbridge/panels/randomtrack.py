@@ -18,8 +18,6 @@ from .shared import Values, speed_control, starting_case
 
 __all__ = ["random_track"]
 
-PERIOD = 300.0
-"""m after which the track repeats itself: longer than deck and car, and few waves."""
 SPECTRA = ("german-low", "fra-fryba-4", "chinese-ballastless")
 """Of different shapes; each is scaled to the same sigma in D1."""
 _QUANTITIES = ("displacement_z", "acceleration_z")
@@ -106,7 +104,7 @@ def random_track(case: Case | None = None) -> Panel:
         say,
         compute=compute,
         code='rough = rb.spectrum("{spectrum}").scaled({sigma})\n'
-        f'track = rb.RandomTrack(rough, {band}components="vertical", period={PERIOD})\n'
+        f'track = rb.RandomTrack(rough, {band}components="vertical")\n'
         'asked = {{"points": [{x}], "quantities": "acceleration_z", **case.options}}\n'
         "crossing = rb.random_response(case.train, case.deck, track, **asked)\n"
         "rb.plots.random_response(crossing, crossing.names[0])\n"
@@ -127,7 +125,7 @@ def _track(case: Case) -> RandomTrack:
     own = case.get("track.vertical")
     rough = spectrum(own["spectrum"]).scaled(own["sigma"])
     band = {"band": own["band"]} if "band" in own else {}
-    return RandomTrack(rough, **band, components=("vertical",), period=PERIOD)
+    return RandomTrack(rough, **band, components=("vertical",))
 
 
 def _crossed(
