@@ -53,6 +53,11 @@ def figures(case, run):
     """One call of every figure, by name."""
     car, deck, train, track = run.train.vehicles[0], run.deck, run.train, run.track
     notch = rb.Notch(((1, 1),), 2.7, 1.0, 1e-3, 0.05)
+    drawn = rb.random_response(
+        rb.Train(car), deck, rb.RandomTrack("german-low", (20, 60), components=("vertical",)),
+        speed=40.0, time_step=4e-3,
+    )  # fmt: skip
+    sag = drawn.names[0]
     return {
         "acceleration": lambda: plots.acceleration(run, 18.0),
         "assurance": lambda: plots.assurance(np.eye(3), ("a", "b", "c"), ("d", "e", "f")),
@@ -65,6 +70,7 @@ def figures(case, run):
         "deviations": lambda: plots.deviations({"condensed": run}),
         "displacement": lambda: plots.displacement(run, 18.0, self_weight=True),
         "envelope": lambda: plots.envelope(speeds_and_waves(), "acceleration_z", limit=1.0),
+        "extremes": lambda: plots.extremes(drawn.ensemble(20), sag, drawn.extreme(sag)),
         "frequencies": lambda: plots.frequencies(car, {"second bending": 13.23}),
         "influence_line": lambda: plots.influence_line(deck, "moment_vertical", 18.0),
         "irregularity": lambda: plots.irregularity(track, -170.0, 50.0, lead_in=150.0, deck=deck),
@@ -72,6 +78,7 @@ def figures(case, run):
         "load_modes": lambda: plots.load_modes({"condensed": run}, 18.0, "moment_vertical"),
         "map": lambda: plots.map(rb.open_study("speed_wavelength"), "acceleration_z"),
         "notch": lambda: plots.notch(notch, 0.0, 10.0),
+        "random_response": lambda: plots.random_response(drawn, sag, seeds=(1, 2)),
         "reactions": lambda: plots.reactions(run),
         "section_force": lambda: plots.section_force(run, 18.0, "torsion"),
         "shell_mode": lambda: plots.shell_mode(*shell_and_modes(), 4),
@@ -79,10 +86,12 @@ def figures(case, run):
         "slope": lambda: plots.slope(track, deck=36.0),
         "spectra": lambda: plots.spectra(run),
         "spectrum": lambda: plots.spectrum(run, mark={"second bending": 13.23}),
+        "track_spectra": lambda: plots.track_spectra(["german-low", "fra-aar-4"]),
         "train_on_deck": lambda: plots.train_on_deck(train, deck),
         "vehicle": lambda: plots.vehicle(car),
         "vehicle_mode": lambda: plots.vehicle_mode(car, 4),
         "velocity": lambda: plots.velocity(run, 18.0),
+        "wave_shares": lambda: plots.wave_shares(drawn, sag, 0.5),
         "wheel_force": lambda: plots.wheel_force(run),
         "wheel_forces": lambda: plots.wheel_forces(run, 2),
         "wheel_paths": lambda: plots.wheel_paths(train, track, 20.0),
@@ -109,6 +118,7 @@ LABELS = {
     "deviations": (["iteration"], ["deviation, Eq. 3 (%)"]),
     "displacement": ([TIME], ["vertical displacement (mm)"]),
     "envelope": (["speed (m/s)"], ["acceleration z (m/s²)"]),
+    "extremes": (["extreme of the vertical displacement (mm)"], ["share per mm"]),
     "frequencies": ([HERTZ], []),
     "influence_line": (["place of the load, x (m)"], ["per unit upward load (m)"]),
     "irregularity": ([PLACE], ["irregularity r (mm)"]),
@@ -116,6 +126,7 @@ LABELS = {
     "load_modes": ([TIME], ["vertical bending moment (kN m)"]),
     "map": (["speed (m/s)"], ["wavelength (m)"]),
     "notch": (["place of the wheel from the bridge entrance (m)"], ["r (mm)"]),
+    "random_response": ([TIME], ["vertical displacement (mm)"]),
     "reactions": ([TIME], ["vertical reaction (kN)"]),
     "section_force": ([TIME], ["torsion (kN m)"]),
     "shell_mode": (["length 36.6 (m), motion drawn up to 1.2 (m)"], []),
@@ -123,10 +134,12 @@ LABELS = {
     "slope": ([PLACE], ["slope dr/dx (mm/m)"]),
     "spectra": ([HERTZ], ["amplitude (kN)"]),
     "spectrum": ([HERTZ], ["amplitude (kN)"]),
+    "track_spectra": (["wavelength (m)"], ["vertical, density (mm² per rad/m)"]),
     "train_on_deck": ([PLACE], []),
     "vehicle": (["x (m)", "y (m)"], ["height, schematic", "y (m)"]),
     "vehicle_mode": (["x (m)", "y (m)"], ["height, schematic", "y (m)"]),
     "velocity": ([TIME], ["vertical velocity (mm/s)"]),
+    "wave_shares": (["waves up to this length (m)"], ["share of the variance"]),
     "wheel_force": ([TIME], ["wheel force on the deck (kN)"]),
     "wheel_forces": ([TIME], ["force (kN)"]),
     "wheel_paths": ([TIME], ["r under the wheel (mm)"]),
@@ -713,17 +726,19 @@ def test_dimensions_and_masses_of_a_car_are_its_own():
     assert above == ["front bogie\n4.36 t", "rear bogie\n4.36 t"] and front == ["1.96 m"]
 
 
-@pytest.mark.parametrize(
-    ("mode", "words"),
-    [
-        (1, "Car sways (56 %) and rolls (43 %) - shares of the kinetic energy."),
-        (8, "Rear bogie pitches (96 %) - shares of the kinetic energy. Same frequency as mode 9: "
-            "any mix of them is a mode as well."),
-    ],
-)  # fmt: skip
-def test_what_moves_is_said_in_words(mode, words):
+def test_what_moves_is_said_in_words():
     car = rb.vehicle("xia2000")
-    assert plots.sketches.what_moves(car, car.modes(), mode) == words
+    modes = car.modes()
+    words = "Car sways (56 %) and rolls (43 %) - shares of the kinetic energy."
+    assert plots.sketches.what_moves(car, modes, 1) == words
+    # A pair of equal frequency is any mixture: one is taken in which the front bogie rests.
+    front = modes.labels.index("front bogie pitch")
+    a, b = modes.shapes[:, 7], modes.shapes[:, 8]
+    shapes = modes.shapes.copy()
+    shapes[:, 7] = (b[front] * a - a[front] * b) / np.hypot(a[front], b[front])
+    words = "Rear bogie pitches (100 %) - shares of the kinetic energy. Same frequency as mode 9: "
+    words += "any mix of them is a mode as well."
+    assert plots.sketches.what_moves(car, replace(modes, shapes=shapes), 8) == words
 
 
 def test_a_train_at_rest_stands_where_it_is_said_to(run):

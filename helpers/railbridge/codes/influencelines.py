@@ -34,7 +34,7 @@ class InfluenceLine:
         """M."""
         return float(self.edges[-1])
 
-    @property
+    @cached_property
     def size(self) -> float:
         """A bound of its magnitude."""
         return float(np.abs(self.coefficients).sum(axis=1).max())
@@ -48,7 +48,9 @@ class InfluenceLine:
         piece, local, _ = self._placed(x)
         powers = local[:, None] ** np.arange(4)
         found = np.einsum("kp,kp->k", powers, self.coefficients[piece])
-        return np.where((x < 0.0) | (x > self.length), 0.0, found)
+        # At a bearing the end of a cubic is zero but for rounding, which is no effect.
+        nothing = np.abs(found) <= _NOTHING * self.size
+        return np.where(nothing | (x < 0.0) | (x > self.length), 0.0, found)
 
     def integral(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
         """Return the integral from each start to each end, m times the unit; zero off the deck."""
@@ -173,6 +175,8 @@ def influence_line(deck: Deck, quantity: str, at: float, y: float = 0.0) -> Infl
     return _cleaned(_under_unit_load(deck.recovery.section(quantity, place), y), usual)
 
 
+_NOTHING = 1e-14
+"""Share of a line's size below which a value is rounding."""
 _ROUNDING = 1e-11
 """Share of a line's size below which a piece of it is rounding, and no effect of any load."""
 
