@@ -752,3 +752,14 @@ def test_every_bound_has_a_source_and_is_used():
     for name, bound in BOUNDS.items():
         assert bound.source and bound.low < bound.high, name
         assert code.count(f'"{name}"') >= 2, f"{name} is held against nothing"
+
+
+def test_a_random_track_in_the_wrong_unit_is_doubted():
+    rough = rb.spectrum("german-low").scaled(1.0)
+    track = rb.RandomTrack(rough, seed=1)
+    train, deck = rb.Train(rb.vehicle("xia2000")), rb.deck("viaduct36")
+    found = doubts(train, deck, track, check(train, deck, track, speed=20.0))
+    assert [remark.field for remark in found] == ["track.vertical", "track.lateral"]
+    assert "given in mm" in found[0].text
+    usual = rb.RandomTrack("fra-aar-1", seed=1)
+    assert not doubts(train, deck, usual, check(train, deck, usual, speed=20.0))

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from .decks import Deck
 from .errors import InputError, InputWarning, Remark, ResultWarning
 from .plausibility import doubts, parts_of
 from .results import Crossing
@@ -13,12 +14,14 @@ from .settings import (
     COARSE_SAMPLES_PER_CONTACT,
     COARSE_SAMPLES_PER_PERIOD,
     LEAD_IN_SECONDS,
+    Settings,
     contact_frequency,
     highest_frequency,
 )
-from .trains import Train, steady_forces
+from .tracks import Track
+from .trains import AnyTrain, Train, steady_forces
 
-__all__ = ["remarks", "unsettled"]
+__all__ = ["remarks", "remarks_before", "unsettled"]
 
 FAR = 0.1
 """Last change of the wheel forces from which on a given number of passes stopped far from the
@@ -33,20 +36,36 @@ _STILL = 1e-3
 
 def remarks(run: Crossing) -> tuple[Remark, ...]:
     """Return what is doubtful about a crossing and what its numbers leave out, a sentence each."""
+    known = run.train, run.deck, run.track, run.settings
     found: list[Remark] = [remark.moved("deck") for remark in run.deck.remarks]
-    found += doubts(run.train, run.deck, run.track, run.settings)
-    found += _only_modes(run)
+    found += doubts(*known)
+    found += _only_modes(run.deck)
     found += _transient(run)
-    found += _coarse(run)
-    found += _coarse_contact(run)
-    found += _apart(run)
+    found += _coarse(run.deck, run.settings)
+    found += _coarse_contact(run.train, run.settings)
+    found += _apart(*known)
     found += _not_settled(run)
     found += _solved_otherwise(run)
     found += _parted(run) if run.settings.contact == "hertz" else _pulling(run)
     found += _lifting(run)
-    found += _moving_ends(run)
+    found += _moving_ends(run.deck)
     found += _broken_track(run)
-    found += _measured(run)
+    found += _measured(run.track)
+    return tuple(found)
+
+
+def remarks_before(
+    train: AnyTrain, deck: Deck, track: Track, settings: Settings
+) -> tuple[Remark, ...]:
+    """Return what is doubtful about a crossing before it is computed, a sentence each."""
+    found: list[Remark] = [remark.moved("deck") for remark in deck.remarks]
+    found += doubts(train, deck, track, settings)
+    found += _only_modes(deck)
+    found += _coarse(deck, settings)
+    found += _coarse_contact(train, settings)
+    found += _apart(train, deck, track, settings)
+    found += _moving_ends(deck)
+    found += _measured(track)
     return tuple(found)
 
 
@@ -58,8 +77,8 @@ def unsettled(run: Crossing) -> bool:
     return not (last < FAR and (last < GROWING or last < min(before)))
 
 
-def _only_modes(run: Crossing) -> list[Remark]:
-    if not run.deck.recovery.lacks:
+def _only_modes(deck: Deck) -> list[Remark]:
+    if not deck.recovery.lacks:
         return []
     text = (
         "Only modes of this deck are known: section forces, reactions and self-weight are null, "
@@ -107,8 +126,8 @@ def _transient(run: Crossing) -> list[Remark]:
     return [InputWarning("lead_in", text)]
 
 
-def _coarse(run: Crossing) -> list[Remark]:
-    highest, step = highest_frequency(run.deck), run.settings.time_step
+def _coarse(deck: Deck, settings: Settings) -> list[Remark]:
+    highest, step = highest_frequency(deck), settings.time_step
     if highest * step * COARSE_SAMPLES_PER_PERIOD <= 1.0:
         return []
     text = (
@@ -119,8 +138,8 @@ def _coarse(run: Crossing) -> list[Remark]:
     return [ResultWarning("time_step", text)]
 
 
-def _coarse_contact(run: Crossing) -> list[Remark]:
-    frequency, step = contact_frequency(run.train), run.settings.time_step
+def _coarse_contact(train: AnyTrain, settings: Settings) -> list[Remark]:
+    frequency, step = contact_frequency(train), settings.time_step
     if frequency * step * COARSE_SAMPLES_PER_CONTACT <= 1.0:
         return []
     percent = 100 * (2 * np.pi * frequency * step) ** 2 / 12
@@ -132,13 +151,13 @@ def _coarse_contact(run: Crossing) -> list[Remark]:
     return [ResultWarning("time_step", text)]
 
 
-def _apart(run: Crossing) -> list[Remark]:
+def _apart(train: AnyTrain, deck: Deck, track: Track, settings: Settings) -> list[Remark]:
     """Doubt the lateral forces of wheelsets whose two rails move sideways differently."""
-    x = np.linspace(-run.settings.lead_in, run.deck.length, 401)
-    left, right = (run.track.rail("lateral", side).value(x) for side in ("left", "right"))
+    x = np.linspace(-settings.lead_in, deck.length, 401)
+    left, right = (track.rail("lateral", side).value(x) for side in ("left", "right"))
     if np.array_equal(left, right):
         return []
-    if not any(len(c.wheels) > 1 for v, _ in run.train.kinds() if v.wheelsets for c in v.axles):
+    if not any(len(c.wheels) > 1 for v, _ in train.kinds() if v.wheelsets for c in v.axles):
         return []
     text = (
         "differs left and right: wheelsets that do not slip hold the rails apart, so lateral wheel "
@@ -271,9 +290,8 @@ def _lifting(run: Crossing) -> list[Remark]:
     return [ResultWarning("", text)]
 
 
-def _moving_ends(run: Crossing) -> list[Remark]:
+def _moving_ends(deck: Deck) -> list[Remark]:
     """Say that a wheel steps at full weight, or in parts of it, onto an end that moves."""
-    deck = run.deck
     if not deck.parts:
         return []  # a rail on a bed lets loads come smoothly
     places = np.linspace(0.0, deck.length, 101)
@@ -319,7 +337,7 @@ def _broken_track(run: Crossing) -> list[Remark]:
     return [ResultWarning("", text)]
 
 
-def _measured(run: Crossing) -> list[Remark]:
-    """Tell how measured rails came to be what the wheels met, each story once."""
-    told = (getattr(part, "told", "") for _, part in parts_of(run.track))
+def _measured(track: Track) -> list[Remark]:
+    """Tell where measured and random rails come from, each story once."""
+    told = (getattr(part, "told", "") for _, part in parts_of(track))
     return [Remark("", text) for text in dict.fromkeys(told) if text]

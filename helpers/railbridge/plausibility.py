@@ -496,6 +496,8 @@ def _of_track(track: Track) -> list[InputWarning]:
             found += _of_wave(field, part)
         elif hasattr(part, "x") and hasattr(part, "r"):
             found += _of_table(field, part)
+        elif hasattr(part, "amplitudes"):
+            found += _of_sum(field.removesuffix(".left"), part) if ".right" not in field else []
     return found
 
 
@@ -549,6 +551,16 @@ def _of_wave(field: str, wave: Irregularity) -> list[InputWarning]:
         text = f"= {wave.phase:g} rad is more than a turn: given in degrees?"
         found.append(InputWarning(f"{field}.phase", text))
     return found
+
+
+def _of_sum(field: str, waves: Irregularity) -> list[InputWarning]:
+    """Doubt a random rail whose standard deviation is larger than waves usually are."""
+    sigma = float(np.sqrt(np.sum(np.abs(waves.amplitudes) ** 2) / 2))
+    bound = BOUNDS["amplitude"]
+    if bound.holds(sigma):
+        return []
+    text = f"is random with a standard deviation of {sigma:.3g} m, usual is {bound.range}"
+    return [InputWarning(field, f"{text}: {bound.slip(sigma)}")]
 
 
 def _of_table(field: str, measured: Irregularity) -> list[InputWarning]:

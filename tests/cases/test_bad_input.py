@@ -470,3 +470,11 @@ def test_files_that_are_something_else(tmp_path, blob, suffix):
     else:
         refused(lambda: rb.deck(path), "TOML")
         refused(lambda: rb.case(path), "TOML")
+
+
+def test_an_unknown_kind_of_irregularity_is_refused_with_the_near_ones():
+    track = {"vertical": [{"kind": "harmonic", "amplitude": 1e-3, "wavelength": 9.0},
+                          {"kind": "randomm", "spectrum": "german-low"}]}  # fmt: skip
+    with pytest.raises(rb.InputError, match="Did you mean 'random'") as refused:
+        _ = rb.case("paper").replace({"track": track}).track
+    assert refused.value.field == "track.vertical[2].kind"

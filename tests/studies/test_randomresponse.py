@@ -273,3 +273,24 @@ def test_slips_are_refused(train, deck, options, field):
     with pytest.raises(rb.InputError) as refusal:
         rb.random_response(train, deck, track, speed=SPEED, **options)
     assert refusal.value.field == field
+
+
+def test_what_is_doubtful_is_told_before_the_numbers_are_read(train, deck):
+    soft = rb.deck_from_table(
+        "soft",
+        {"length": 36.0, "bending_stiffness_vertical": 8.94e10, "mass": 12e3, "modes": 3,
+         "damping": {"modal": 0.02}, "bearing": [
+             {"x": 0.0, "fixed": "x y roll", "stiffness": {"z": 2e9}},
+             {"x": 36.0, "fixed": "y roll", "stiffness": {"z": 2e9}}]},
+    )  # fmt: skip
+    track = rb.RandomTrack("fra-aar-4", components=("vertical", "cross_level"), band=(20, 100))
+    with pytest.warns(rb.ResultWarning, match="An end of the deck moves"):
+        found = rb.random_response(train, soft, track, speed=SPEED)
+    texts = [str(remark) for remark in found.remarks]
+    assert sum("remembered by one source" in text for text in texts) == 1
+    assert sum("An end of the deck moves" in text for text in texts) == 1
+    sound = rb.random_response(
+        train, deck, rb.RandomTrack("german-low", components=("vertical",), band=(20, 100)),
+        speed=SPEED,
+    )  # fmt: skip
+    assert not sound.remarks

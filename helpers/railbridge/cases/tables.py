@@ -182,13 +182,24 @@ WELD = table(
     **_kind("weld"),
     **fields_of(Weld),
 )
-IRREGULARITY = switched(
-    lambda value: by_value(value, "kind", _KINDS, otherwise="harmonic"),
-    {
-        "none": LEVEL, "harmonic": HARMONIC, "table": MEASURED, "random": RANDOM,
-        "file": RECORDED, "dip": DIP, "joint": JOINT, "weld": WELD,
-    },
-)  # fmt: skip
+
+
+def _refuse_unknown_kind(value: Any) -> Any:
+    if isinstance(value, dict) and isinstance(value.get("kind"), str):
+        choice("kind", value["kind"], _KINDS)
+    return value
+
+
+IRREGULARITY = Annotated[
+    switched(
+        lambda value: by_value(value, "kind", _KINDS, otherwise="harmonic"),
+        {
+            "none": LEVEL, "harmonic": HARMONIC, "table": MEASURED, "random": RANDOM,
+            "file": RECORDED, "dip": DIP, "joint": JOINT, "weld": WELD,
+        },
+    ),
+    BeforeValidator(_refuse_unknown_kind),
+]  # fmt: skip
 IRREGULARITIES = TypeAliasType(
     "IRREGULARITIES",
     Annotated[

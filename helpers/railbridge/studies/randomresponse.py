@@ -24,9 +24,10 @@ import numpy as np
 from .. import errors
 from ..crossing import warn_of
 from ..decks import Deck
-from ..errors import InputError, InputWarning, brief
+from ..errors import InputError, InputWarning, Remark, brief
 from ..irregularities import RandomTrack, TrackSpectrum
 from ..irregularities.realisations import MOST_SEED
+from ..notices import remarks_before
 from ..settings import LEAD_IN_SECONDS
 from ..tracks import Track
 from ..trains import AnyTrain
@@ -65,6 +66,16 @@ class RandomResponse:
     track: RandomTrack
     waves: UnitWaves
     _known: dict[str, tuple[np.ndarray, ...]] = field(default_factory=dict, repr=False)
+
+    @property
+    def remarks(self) -> tuple[Remark, ...]:
+        """What is doubtful about train, deck and track, and about the spectrum's constants."""
+        known = self.waves.train, self.waves.deck
+        found = (
+            *remarks_before(*known, self.waves.base, self.waves.settings),
+            *remarks_before(*known, self.track, self.waves.settings),
+        )
+        return tuple({str(remark): remark for remark in found}.values())
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -126,8 +137,8 @@ class RandomResponse:
         -----
         Against ensembles of 2000 (mean extreme, three planar cars on 36 m): wheel forces within 0.1
         standard deviations of the process. What rings in one mode comes out too large, on the safe
-        side: accelerations by 0.1 to 0.9 (1 to 9 %, the most at 0.5 % damping), displacements and
-        moments by 0.02 to 0.5, their standard deviation too small by up to a third; the 95 %
+        side: accelerations by 0.02 to 0.9 (up to 9 %, the most at 0.5 % damping), displacements
+        and moments by up to 0.5, their standard deviation too small by up to 40 %; the 95 %
         percentile is within 0.3. Wrong, by two standard deviations too large, where the answer
         jumps: shear, and torsion, at a point that wheels pass. `ensemble` has none of this.
         """
@@ -240,8 +251,9 @@ def random_response(
 
     Warns
     -----
-    InputWarning
-        A given period so short that the waves are too far apart for a car's resonance.
+    InputWarning, ResultWarning
+        What `RandomResponse.remarks` says; a given period so short that the waves are too far apart
+        for a car's resonance.
 
     Notes
     -----
@@ -257,7 +269,9 @@ def random_response(
         train, deck, track.edges, components=track.components, quantities=quantities,
         points=points, wheels_of=wheels_of, base=base, progress=progress, **options,
     )  # fmt: skip
-    return RandomResponse(track, waves)
+    found = RandomResponse(track, waves)
+    warn_of(found.remarks)
+    return found
 
 
 def _long_enough(train: AnyTrain, deck: Deck, track: RandomTrack, speed: float) -> RandomTrack:
@@ -275,7 +289,7 @@ def _long_enough(train: AnyTrain, deck: Deck, track: RandomTrack, speed: float) 
         raise InputError("track.period", track.period, allowed, "Leave it out to have it chosen")
     if track.length < memory:
         text = f"= {track.period:g} m: the waves are too far apart for a car so lightly damped, "
-        text += f"{memory:.4g} m are needed. Leave it out to have it chosen."
+        text += f"{memory:.4g} m are needed. Give that much."
         warn_of([InputWarning("track.period", text)])
     return track
 

@@ -77,6 +77,8 @@ class UnitWaves:
     train : AnyTrain
     deck : Deck
     settings : Settings
+    base : Track
+        What else the rails are off by.
     edges : ndarray, shape (waves + 1,)
         Ends of the bands of wave numbers in whose middle the waves lie, rad/m.
     components : tuple of str
@@ -90,6 +92,7 @@ class UnitWaves:
     train: AnyTrain
     deck: Deck
     settings: Settings
+    base: Track
     edges: np.ndarray
     components: tuple[str, ...]
     histories: Mapping[str, UnitHistory] = field(repr=False)
@@ -181,7 +184,7 @@ def unit_waves(
         for number, forces in enumerate(own.forces, start=1):
             name = f"wheel_force_z of car {i + 1}, wheel {number}"
             histories[name] = _history("N", time, forces, *shape)
-    return UnitWaves(train, deck, settings, frozen(edges), components, histories)
+    return UnitWaves(train, deck, settings, base, frozen(edges), components, histories)
 
 
 def _without_feeling(car: CarSteps) -> CarSteps:
