@@ -4,7 +4,7 @@ Load trains and load models of EN 1991-2, wagons of EN 15528; dynamic factors, d
 ride, each with its clause and how well that is known; verdicts.
 """
 
-from .catalogue import clauses, clauses_frame
+from .catalogue import all_clauses, clauses_frame
 from .clauses import Answer, CannotDecideError, Clause, Within
 from .damping import DAMPING, additional_damping, damping_lower_bound, damping_ratio
 from .dynamicfactors import (
@@ -51,7 +51,7 @@ from .wagons import LINE_CATEGORIES, wagon_train
 __all__ = [
     "Answer", "Bounds", "CannotDecideError", "Clause", "DAMPING", "HSLM_A", "KeptModes",
     "LINE_CATEGORIES", "LOAD_MODELS", "LoadModel", "Verdict", "Verdicts", "Within",
-    "acceleration_limit", "additional_damping", "analysis_speeds", "clauses", "clauses_frame",
+    "acceleration_limit", "additional_damping", "all_clauses", "analysis_speeds", "clauses_frame",
     "comfort_limit", "damping_lower_bound", "damping_ratio", "deflection_limit",
     "determinant_length", "dynamic_analysis_needed", "frequency_from_deflection",
     "frequency_limit", "horizontal_radius_limit", "horizontal_rotation_limit", "hslm_a", "hslm_b",

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from . import damping, dynamicfactors, frequencies, limits, need, ride
 from .clauses import Clause
 
-__all__ = ["RULES", "clauses", "clauses_frame", "table"]
+__all__ = ["RULES", "all_clauses", "clauses_frame", "table"]
 
 RULES: tuple[Callable, ...] = (
     need.dynamic_analysis_needed, need.analysis_speeds,
@@ -26,7 +26,7 @@ RULES: tuple[Callable, ...] = (
 """The functions that have a clause, in the order of a design."""
 
 
-def clauses() -> dict[str, Clause]:
+def all_clauses() -> dict[str, Clause]:
     """Return the clause of each rule, by the name of its function."""
     return {rule.__name__: rule.clause for rule in RULES}
 
@@ -48,7 +48,7 @@ def clauses_frame():
             "source": clause.source,
             "grade": clause.grade,
         }
-        for name, clause in clauses().items()
+        for name, clause in all_clauses().items()
     }
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis("function")
 
@@ -56,7 +56,7 @@ def clauses_frame():
 def table() -> list[str]:
     """Return the lines of a Markdown table of all clauses."""
     lines = ["| function | gives | unit | clause | valid | source |", "|---|---|---|---|---|---|"]
-    for name, clause in clauses().items():
+    for name, clause in all_clauses().items():
         edition = "" if clause.code.startswith("EN 199") else f", {clause.edition}"
         what = f"{clause.title}{', ' + clause.sense if clause.sense else ''}"
         cells = [

@@ -34,7 +34,8 @@ _NOT_FOR = "not for real trains, HSLM, fatigue trains and the unloaded train"
 _PHI2, _PHI3 = (
     Clause(
         f"dynamic factor {name}", "EN 1991-2", "6.4.5", "", "two",
-        memory="number of the clause, and for which track it is", ranges=(_POLE,), conditions=f"{track} track; {_NOT_FOR}",
+        memory="number of the clause, and for which track it is", ranges=(_POLE,),
+        conditions=f"{track} track; {_NOT_FOR}",
     )
     for name, track in (("Phi2", "carefully maintained"), ("Phi3", "standard"))
 )  # fmt: skip
