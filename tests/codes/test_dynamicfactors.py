@@ -126,7 +126,7 @@ def test_phi_double_prime_by_series(L, n0, v, alpha):
 
 
 def test_phi_double_prime_is_never_negative():
-    # L n0 is least at the lower bound beyond 20 m, yet above 80, so only the floor can be met.
+    # Within Figure 6.10 L n0 is 80 or more, so the second summand never is, either.
     for L in np.linspace(4.0, 100.0, 33):
         lower = float(rb.codes.n0_bounds(L).lower)
         assert float(phi_double_prime(L, lower, 30.0)) >= 0.0
