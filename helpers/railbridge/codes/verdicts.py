@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from .. import errors
 from ..errors import InputError
 from .clauses import Answer, Clause, not_above
@@ -232,10 +234,6 @@ def _known(value: float | Answer | None, limit: Answer) -> tuple[float | None, C
         return known, value.clause, value.reason
     if value is None:
         return None, None, "the value is not known"
-    try:
-        finite = abs(value) <= _LARGEST
-    except TypeError:
-        finite = True
-    if not finite:
+    if isinstance(value, (float, np.floating)) and not abs(value) <= _LARGEST:
         return None, None, "the value is not a finite number"
     return errors.number("value", value), None, ""
