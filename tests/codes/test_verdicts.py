@@ -46,6 +46,13 @@ def test_at_least(value, verdict, utilisation):
     assert found.verdict == verdict and found.utilisation == pytest.approx(utilisation)
 
 
+def test_a_wheel_that_is_loaded_more_is_not_unloaded():
+    limit = codes.wheel_unloading_limit()
+    found = [judge(x, limit) for x in (-0.9, 0.3, 0.6, 0.61)]
+    assert [row.verdict for row in found] == ["met", "met", "met", "not met"]
+    assert [row.utilisation for row in found] == pytest.approx([0.0, 0.5, 1.0, 0.61 / 0.6])
+
+
 def test_uplift_has_no_utilisation():
     limit = codes.uplift_limit()
     assert [judge(x, limit).verdict for x in (1e3, 0.0, -1e-3)] == ["met", "met", "not met"]

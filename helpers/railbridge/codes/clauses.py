@@ -132,6 +132,9 @@ class Clause:
         The rest of its range and what it must not be used for, in words.
     sense : {"", "at most", "at least"}
         On which side of the number one must be, if it is a limit.
+    magnitude : bool
+        Of a limit "at most": whether its sign does not matter. A wheel that is loaded more is not
+        unloaded.
     edition : str
     """
 
@@ -144,6 +147,7 @@ class Clause:
     ranges: tuple[Within, ...] = ()
     conditions: str = ""
     sense: Literal["", "at most", "at least"] = ""
+    magnitude: bool = True
     edition: str = EDITION
 
     def __post_init__(self) -> None:

@@ -74,6 +74,7 @@ _COMFORT = Clause(
 )  # fmt: skip
 _UNLOADING = Clause(
     "wheel unloading", "EN 14363", "practice of running safety", "", "memory", sense=_MOST,
+    magnitude=False,
     conditions="share of the static wheel load; no verdict on Y/Q, which needs flange and creep",
     edition=UNSEEN,
 )  # fmt: skip

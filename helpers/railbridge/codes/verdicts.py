@@ -70,7 +70,7 @@ class Verdict:
         if self.limit is None or self.value is None:
             return CANNOT_DECIDE
         if self.clause.sense == "at most":
-            met = not_above(abs(self.value), self.limit)
+            met = not_above(self._size, self.limit)
         else:
             met = not_above(self.limit, self.value)
         return MET if met else NOT_MET
@@ -84,8 +84,13 @@ class Verdict:
         if self.verdict == CANNOT_DECIDE or self.limit == 0.0:
             return None
         if self.clause.sense == "at most":
-            return abs(self.value) / self.limit
+            return max(self._size, 0.0) / self.limit
         return self.limit / self.value if self.value > 0.0 else math.inf
+
+    @property
+    def _size(self) -> float:
+        """What is compared with a limit that must not be exceeded."""
+        return abs(self.value) if self.clause.magnitude else self.value
 
     @property
     def source(self) -> str:
@@ -190,7 +195,8 @@ def judge(
     Parameters
     ----------
     value : float, Answer or None
-        In the unit of the limit. Of a limit that must not be exceeded the magnitude counts.
+        In the unit of the limit. Of a limit that must not be exceeded the magnitude counts, of
+        unloading the sign too.
         None, an undecided answer, or a number that is not finite: cannot decide.
     limit : Answer
         As ``acceleration_limit("ballasted")``; its clause says on which side the value must be.
