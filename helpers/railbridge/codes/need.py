@@ -15,7 +15,7 @@ from .clauses import (
     not_above,
     outside,
 )
-from .frequencies import Bounds, outside_n0_bounds
+from .frequencies import Bounds, n0_bounds, outside_n0_bounds
 
 __all__ = ["analysis_speeds", "dynamic_analysis_needed"]
 
@@ -74,8 +74,7 @@ def dynamic_analysis_needed(L: float, n0: float, v: float, *, simple: bool = Tru
     reason = outside_n0_bounds(length, frequency)
     if not reason:
         return Answer(False, _NEED, "simple, up to 200 km/h, n0 within Figure 6.10")
-    spans = Within("L", least=4.0, most=100.0, unit="m")
-    return Answer(True if spans.holds(length) else None, _NEED, reason)
+    return Answer(True if n0_bounds(length).lower.decided else None, _NEED, reason)
 
 
 @by_clause(_SPEEDS)
