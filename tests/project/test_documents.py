@@ -21,6 +21,7 @@ TARGETS = dict(re.findall(r"^([a-z-]+):[^#\n]*## .*\n((?:\t.*\n)*)", MAKEFILE, r
 DOCUMENTS = (
     "README.md", "CONTRIBUTING.md", "docs/map.md", "docs/case.md", "docs/hub.md", "docs/studies.md",
     "docs/spectra.md",
+    "docs/codes.md",
 )  # fmt: skip
 
 
