@@ -29,6 +29,7 @@ PAGES = (
     "README.md",
     "LICENSE-notebooks.md",
     "docs/case.md",
+    "docs/codes.md",
     "docs/exchange.md",
     "docs/spectra.md",
     "docs/studies.md",
