@@ -148,12 +148,30 @@ def blocks(language):
     return re.findall(rf"```{language}\n(.*?)```", STUDIES, re.DOTALL)
 
 
-def test_the_python_of_the_page_on_studies_runs():
+CASE = """
+[deck]
+file = "viaduct36"
+[train]
+vehicle = "xia2000"
+[track]
+vertical = { kind = "random", spectrum = "german-low", band = [20, 100], rails_differ = false }
+[run]
+speed = 40.0
+time_step = 2e-3
+[output]
+points = [18.0]
+"""
+
+
+def test_the_python_of_the_page_on_studies_runs(tmp_path, monkeypatch):
     pytest.importorskip("xarray")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "case.toml").write_text(CASE)
     scope = {}
     for block in blocks("python"):
         exec(block, scope)
     assert scope["found"].sizes["wavelength"] == 2
+    assert scope["seeds"].sizes["track.vertical.seed"] == 20
     plt.close("all")
 
 
@@ -166,7 +184,7 @@ def test_the_study_file_of_the_page_on_studies_is_one():
 
 
 def test_options_of_the_page_on_studies_exist(capsys):
-    for command in ("sweep", "envelope"):
+    for command in ("sweep", "envelope", "ensemble"):
         with pytest.raises(SystemExit):
             cli.main([command, "--help"])
     said = capsys.readouterr().out
