@@ -171,7 +171,7 @@ def test_the_python_of_the_page_on_studies_runs(tmp_path, monkeypatch):
     for block in blocks("python"):
         exec(block, scope)
     assert scope["found"].sizes["wavelength"] == 2
-    assert scope["seeds"].sizes["track.vertical.seed"] == 20
+    assert scope["seeds"]["wheel_unloading"].size == 20
     plt.close("all")
 
 
