@@ -34,8 +34,8 @@ def expected(panel, **changes):
 def words(run):
     w, a = (np.abs(run.mean(name)).max() for name in (SAG, SHAKE))
     return (
-        f"level track gives {1e3 * w:.2f} mm and {a:.2f} m/s2; the rough one adds standard "
-        f"deviations up to {1e3 * run.sigma(SAG).max():.2f} mm and "
+        f"level track {1e3 * w:.2f} mm and {a:.2f} m/s2; standard deviation on the rough one "
+        f"{1e3 * run.sigma(SAG).max():.2f} mm and "
         f"{run.sigma(SHAKE).max():.3f} m/s2; one crossing in twenty exceeds "
         f"{run.extreme(SHAKE).percentile(95):.2f} m/s2."
     )

@@ -82,9 +82,11 @@ def random_track(case: Case | None = None) -> Panel:
         v, rough = values["speed"], 1e3 * values["sigma"]
         return (
             f"{v:.1f} m/s ({3.6 * v:.1f} km/h), {values['spectrum']} with {rough:.1f} mm in D1, "
-            f"{_FELT[values['interaction']]}: at x = {case.points[0]:g} m level track gives "
-            f"{1e3 * w:.2f} mm and {a:.2f} m/s2; the rough one adds standard deviations up to "
-            f"{1e3 * response.sigma(sag).max():.2f} mm and {response.sigma(shake).max():.3f} m/s2; "
+            f"{_FELT[values['interaction']]}: the largest over time at x = "
+            f"{case.points[0]:g} m: level track "
+            f"{1e3 * w:.2f} mm and {a:.2f} m/s2; standard deviation on the rough one "
+            f"{1e3 * response.sigma(sag).max():.2f} mm and "
+            f"{response.sigma(shake).max():.3f} m/s2; "
             f"one crossing in twenty exceeds {extreme.percentile(95.0):.2f} m/s2."
         )
 
