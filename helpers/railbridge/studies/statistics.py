@@ -316,8 +316,8 @@ def needed_for_percentile(
         As `describe`; a pilot whose percentile is zero, or a width that no ensemble gives.
 
     Source: N realisations place the percentile p between two others of the distribution,
-    ``p -+ z sqrt(p (1 - p) / N)``, the Gaussian limit of the intervals of `describe`; those are read
-    from the pilot. Never fewer than the two bounds of such an interval take.
+    ``p -+ z sqrt(p (1 - p) / N)``, the Gaussian limit of the intervals of `describe`; those are
+    read from the pilot. Never fewer than the two bounds of such an interval take.
     """
     pilot, width = _realisations(pilot, "pilot"), number("width", width, above=0.0)
     confidence = _inside("confidence", confidence, 1.0, "Give 0.95 for 95 %")
