@@ -11,7 +11,7 @@ from .. import plots
 from ..cases.definition import Case
 from ..irregularities import RandomTrack, spectrum
 from ..studies.peakfactors import Extreme
-from ..studies.randomresponse import RandomResponse, random_response
+from ..studies.randomresponse import RandomResponse, compute_response
 from .control import Control
 from .panel import Panel
 from .shared import Values, speed_control, starting_case
@@ -133,7 +133,7 @@ def _track(case: Case) -> RandomTrack:
 def _crossed(
     case: Case, track: RandomTrack, progress: Callable[[str], None] | None
 ) -> RandomResponse:
-    return random_response(
+    return compute_response(
         case.train,
         case.deck,
         track,

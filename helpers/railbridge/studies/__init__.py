@@ -14,7 +14,7 @@ from .lanes import WIDTH, advance_of, eligible
 from .mixtures import WORTH, mixture_key
 from .outputs import OUTPUTS, outputs_at
 from .peakfactors import Extreme, PeakFactor, davenport, extreme, upcrossing_rate
-from .randomresponse import RandomResponse, random_response
+from .randomresponse import RandomResponse, compute_response, random_response
 from .refinement import Between, starting_speeds
 from .resonance import repeated_distance, residual_acceleration, resonance_speeds
 from .statistics import (
@@ -35,10 +35,10 @@ __all__ = [
     "MemoryStore", "NUMBERS", "OUTPUTS", "PeakFactor", "Percentile", "Point", "QUANTITIES",
     "RandomResponse", "Row", "Share", "Statistics", "Store", "UnitWaves", "WIDTH", "WORTH",
     "WorkerDiedError", "advance_of", "asked_of", "carry_out", "checked_speeds", "chunked",
-    "dataset", "davenport", "describe", "eligible", "exceedance", "extreme", "fingerprint",
-    "mixture_key", "named_trains", "needed", "needed_for_mean", "needed_for_percentile",
-    "outputs_at", "print_of_crossing", "print_of_deck", "program_version", "random_response",
-    "remaining", "repeated_distance", "residual_acceleration", "resonance_speeds", "respond",
-    "signature", "speed_envelope", "starting_speeds", "table", "unit_waves", "upcrossing_rate",
-    "wave_forces",
+    "compute_response", "dataset", "davenport", "describe", "eligible", "exceedance", "extreme",
+    "fingerprint", "mixture_key", "named_trains", "needed", "needed_for_mean",
+    "needed_for_percentile", "outputs_at", "print_of_crossing", "print_of_deck", "program_version",
+    "random_response", "remaining", "repeated_distance", "residual_acceleration",
+    "resonance_speeds", "respond", "signature", "speed_envelope", "starting_speeds", "table",
+    "unit_waves", "upcrossing_rate", "wave_forces",
 ]  # fmt: skip

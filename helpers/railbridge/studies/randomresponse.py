@@ -36,7 +36,7 @@ from .ensembles import Ensemble, draw, shares_of
 from .peakfactors import Extreme, extreme
 from .unitwaves import UnitWaves, unit_waves
 
-__all__ = ["RandomResponse", "random_response"]
+__all__ = ["RandomResponse", "compute_response", "random_response"]
 
 _LONGER = 1.1
 """How much longer than the way of the train the track is before it repeats itself."""
@@ -74,6 +74,7 @@ class RandomResponse:
         found = (
             *remarks_before(*known, self.waves.base, self.waves.settings),
             *remarks_before(*known, self.track, self.waves.settings),
+            *_too_short(self.waves.train, self.track, self.waves.settings.speed),
         )
         return tuple({str(remark): remark for remark in found}.values())
 
@@ -259,19 +260,33 @@ def random_response(
     -----
     Section forces that jump are seen at samples only, not on both sides of the jump.
     """
-    if not isinstance(track, RandomTrack):
-        track = RandomTrack(track)
-    if "components" in options:
-        remedy = "Write RandomTrack(..., components = ('vertical',))"
-        raise InputError("components", options["components"], "belong to the track", remedy)
-    track = _long_enough(train, deck, track, options.get("speed"))
-    waves = unit_waves(
-        train, deck, track.edges, components=track.components, quantities=quantities,
-        points=points, wheels_of=wheels_of, base=base, progress=progress, **options,
+    found = compute_response(
+        train, deck, track, quantities=quantities, points=points, wheels_of=wheels_of, base=base,
+        progress=progress, **options,
     )  # fmt: skip
-    found = RandomResponse(track, waves)
     warn_of(found.remarks)
     return found
+
+
+def compute_response(
+    train: AnyTrain, deck: Deck, track: RandomTrack | TrackSpectrum | str, **asked
+) -> RandomResponse:
+    """Compute a crossing of a random track as `random_response` does, without warnings.
+
+    Parameters
+    ----------
+    train, deck, track
+    **asked
+        The other arguments of `random_response`.
+    """
+    if not isinstance(track, RandomTrack):
+        track = RandomTrack(track)
+    if "components" in asked:
+        remedy = "Write RandomTrack(..., components = ('vertical',))"
+        raise InputError("components", asked["components"], "belong to the track", remedy)
+    track = _long_enough(train, deck, track, asked.get("speed"))
+    waves = unit_waves(train, deck, track.edges, components=track.components, **asked)
+    return RandomResponse(track, waves)
 
 
 def _long_enough(train: AnyTrain, deck: Deck, track: RandomTrack, speed: float) -> RandomTrack:
@@ -279,7 +294,7 @@ def _long_enough(train: AnyTrain, deck: Deck, track: RandomTrack, speed: float) 
     speed = errors.number("speed", speed, above=0.0, unit="m/s")
     length = errors.instance("deck", deck, Deck).length + 2 * deck.reach
     length += errors.instance("train", train, AnyTrain).length
-    memory = speed * np.log(1.0 / _LEFT) * max((_memory(v) for v, _ in train.kinds()), default=0.0)
+    memory = _way_of_memory(train, speed)
     if track.period is None:
         way = _LONGER * (LEAD_IN_SECONDS * speed + length)
         return replace(track, period=float(10.0 * np.ceil(max(way, memory) / 10.0)))
@@ -287,11 +302,22 @@ def _long_enough(train: AnyTrain, deck: Deck, track: RandomTrack, speed: float) 
         allowed = f"is shorter than deck and train, {length:.4g} m: wheels would meet the same"
         allowed += " waves again"
         raise InputError("track.period", track.period, allowed, "Leave it out to have it chosen")
-    if track.length < memory:
-        text = f"= {track.period:g} m: the waves are too far apart for a car so lightly damped, "
-        text += f"{memory:.4g} m are needed. Give that much."
-        warn_of([InputWarning("track.period", text)])
     return track
+
+
+def _too_short(train: AnyTrain, track: RandomTrack, speed: float) -> list[Remark]:
+    """Doubt a period so short that the waves are too far apart for a car's resonance."""
+    memory = _way_of_memory(train, speed)
+    if track.length >= memory:
+        return []
+    text = f"= {track.period:g} m: the waves are too far apart for a car so lightly damped, "
+    return [InputWarning("track.period", f"{text}{memory:.4g} m are needed. Give that much.")]
+
+
+def _way_of_memory(train: AnyTrain, speed: float) -> float:
+    """Return the way, m, on which cars forget what they met before it."""
+    slowest = max((_memory(vehicle) for vehicle, _ in train.kinds()), default=0.0)
+    return float(speed * np.log(1.0 / _LEFT) * slowest)
 
 
 def _memory(vehicle: Vehicle) -> float:
