@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import tomllib
 from collections.abc import Collection, Iterable, Mapping
@@ -12,6 +11,7 @@ from typing import Any
 from ..errors import InputError, did_you_mean, within
 from ..exchange.reading import read_text
 from ..exchange.tables import read_columns
+from ..irregularities.reading import data_root
 from ..units import quantity
 
 __all__ = [
@@ -22,17 +22,6 @@ LARGEST_TOML = 2e7
 """Bytes; twenty seconds of reading, and a measured track of a million samples."""
 _QUOTED = re.compile(r"""(['"]).{2,}\1""", re.DOTALL)
 """What a parser quotes of a file in its complaint, but for single signs."""
-
-
-def data_root() -> Path:
-    """Return the folder of shipped data.
-
-    That of RAILBRIDGE_DATA if set, inside an installed wheel, or of the checkout.
-    """
-    if os.environ.get("RAILBRIDGE_DATA"):
-        return Path(os.environ["RAILBRIDGE_DATA"])
-    packaged = Path(__file__).parents[1] / "data"
-    return packaged if packaged.is_dir() else Path(__file__).parents[3] / "data"
 
 
 def data_names(kind: str, *suffixes: str) -> list[str]:

@@ -29,7 +29,7 @@ from .densities import FormulaDensity
 from .formulas import COMPONENTS, FORMULAS, Formula, factors
 from .trackspectra import GRADES, Component, TrackSpectrum
 
-__all__ = ["spectrum", "spectrum_names"]
+__all__ = ["data_root", "spectrum", "spectrum_names"]
 
 LARGEST = 1e6
 """Bytes of a file."""
@@ -68,12 +68,19 @@ def spectrum_names() -> list[str]:
     return sorted(path.stem for path in _folder().glob("*.toml"))
 
 
-def _folder() -> Path:
-    """Return where the shipped spectra stand: as for all data, RAILBRIDGE_DATA leads elsewhere."""
+def data_root() -> Path:
+    """Return the folder of shipped data.
+
+    That of RAILBRIDGE_DATA if set, inside an installed wheel, or of the checkout.
+    """
     if os.environ.get("RAILBRIDGE_DATA"):
-        return Path(os.environ["RAILBRIDGE_DATA"]) / "spectra"
+        return Path(os.environ["RAILBRIDGE_DATA"])
     packaged = Path(__file__).parents[1] / "data"
-    return (packaged if packaged.is_dir() else Path(__file__).parents[3] / "data") / "spectra"
+    return packaged if packaged.is_dir() else Path(__file__).parents[3] / "data"
+
+
+def _folder() -> Path:
+    return data_root() / "spectra"
 
 
 def _shipped(name: str) -> Path:
