@@ -10,7 +10,7 @@ import sys
 def main() -> int:
     """Load the command and run it; return its exit code."""
     try:
-        from railbridge.cases.command import main as command
+        from railbridge.commands.command import main as command
     except KeyboardInterrupt:
         if sys.stderr is not None:
             print("railbridge: interrupted; nothing was written", file=sys.stderr)

@@ -11,8 +11,8 @@ import shutil
 import numpy as np
 import pytest
 
-from railbridge.cases import command as cli
 from railbridge.cases import pages, shelf
+from railbridge.commands import command as cli
 from railbridge.errors import InputError
 from railbridge.settings import bytes_needed
 

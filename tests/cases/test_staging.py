@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from railbridge.cases import command as cli
 from railbridge.cases import staging
+from railbridge.commands import command as cli
 from railbridge.errors import InputError
 
 NAMES = ("a.csv", "b.csv", "summary.json")

@@ -15,8 +15,8 @@ from opensees import example_tables, viaduct36_in_mm
 
 import railbridge as rb
 from railbridge import exchange
-from railbridge.cases import command as cli
 from railbridge.cases import pages
+from railbridge.commands import command as cli
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from railbridge.cases.command import main
+from railbridge.commands.command import main
 from railbridge.errors import InputError
 from railbridge.lessons import editions, exercises
 from railbridge.lessons.marking import Row, answers_of, marked, submissions, table

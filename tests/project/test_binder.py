@@ -20,7 +20,7 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from railbridge.cases import copies as lessons
+from railbridge.commands import copies as lessons
 
 ROOT = Path(__file__).resolve().parents[2]
 BINDER = ROOT / "binder"

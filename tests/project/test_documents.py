@@ -10,9 +10,9 @@ import pytest
 import yaml
 
 import railbridge as rb
-from railbridge.cases import command as cli
 from railbridge.cases import pages
 from railbridge.cases.sweeping import planned
+from railbridge.commands import command as cli
 from railbridge.units import UNITS
 
 ROOT = Path(__file__).resolve().parents[2]

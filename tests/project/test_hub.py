@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import pytest
 
 import site_pages
-from railbridge.cases import copies as lessons
+from railbridge.commands import copies as lessons
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "hub.md").read_text(encoding="utf-8")

@@ -11,7 +11,7 @@ import pytest
 from served import Server, answers, port_in, running, wait_until
 
 import lab
-from railbridge.cases import copies as lessons
+from railbridge.commands import copies as lessons
 
 ROOT = Path(__file__).resolve().parents[2]
 FIRST = "00_start_here.ipynb"

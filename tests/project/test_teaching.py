@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import railbridge as rb
-from railbridge.cases import command as cli
+from railbridge.commands import command as cli
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "teaching.md"

@@ -8,8 +8,8 @@ import nbformat
 import pytest
 
 import railbridge as rb
-from railbridge.cases import command as cli
-from railbridge.cases import copies as lessons
+from railbridge.commands import command as cli
+from railbridge.commands import copies as lessons
 
 NOTEBOOK = "03_rigid_deck_forces.ipynb"
 

@@ -19,6 +19,10 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from ..cases import pages, shelf, staging, tables
+from ..cases.axletrains import train_list
+from ..cases.definition import Case, case
+from ..cases.summary import histories, to_json
 from ..crossing import NotConvergedError
 from ..decks import Deck
 from ..errors import InputError, InputWarning, integer, printable, within
@@ -26,11 +30,8 @@ from ..lessons import exercises, marking
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
-from . import changing, copies, drawing, pages, shelf, staging, studying, tables
-from .axletrains import train_list
-from .definition import Case, case
+from . import changing, copies, drawing, studying
 from .speech import Progress, nowhere, say, tell, warn
-from .summary import histories, to_json
 
 __all__ = ["main"]
 

@@ -11,8 +11,8 @@ import pandas as pd
 import pytest
 
 import railbridge as rb
-from railbridge.cases import command as cli
 from railbridge.cases import drawn
+from railbridge.commands import command as cli
 
 CASE = """
 [deck]

@@ -16,11 +16,11 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..cases import shelf
 from ..errors import InputError
 from ..exchange.reading import read_text
 from ..lessons import sheets
 from ..lessons.editions import EDITIONS
-from . import shelf
 
 __all__ = ["MANIFEST", "Copy", "contents", "place", "plan", "stage"]
 

@@ -12,12 +12,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from .. import errors
+from ..cases import staging
+from ..cases.drawn import Drawn
+from ..cases.ranges import written_range
+from ..cases.summary import to_json
 from ..errors import InputError
-from . import changing, staging
-from .drawn import Drawn
-from .ranges import written_range
+from . import changing
 from .speech import Progress, tell, warn
-from .summary import to_json
 
 __all__ = ["add_command"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 import tomllib
 
+from ..cases.definition import Case, case
 from ..errors import InputError, InputWarning
-from .definition import Case, case
 from .speech import say, warn
 
 __all__ = ["changed_case", "options", "said_doubts"]

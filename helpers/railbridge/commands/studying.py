@@ -18,14 +18,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import errors, studies
+from ..cases import pages, shelf, staging, sweeping
+from ..cases.axletrains import train_list
+from ..cases.ranges import unit_of, written_ends, written_range
+from ..cases.studytrains import trains_of_case
 from ..errors import InputError
 from ..settings import MEMORY_LIMIT
 from ..trains import AxleTrain
-from . import findings, pages, shelf, staging, sweeping
-from .axletrains import train_list
-from .ranges import unit_of, written_ends, written_range
+from . import findings
 from .speech import say, tell
-from .studytrains import trains_of_case
 
 if TYPE_CHECKING:
     import xarray as xr

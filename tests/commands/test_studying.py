@@ -11,13 +11,13 @@ from pathlib import Path
 
 import pytest
 
-from railbridge.cases import command as cli
 from railbridge.cases import shelf
+from railbridge.commands import command as cli
 
 pytest.importorskip("zarr")
 xr = pytest.importorskip("xarray")
 
-CASE = (Path(__file__).with_name("test_sweeping.py").read_text(encoding="utf-8")).split('"""')[3]
+CASE = (Path(__file__).parents[1] / "quick_case.toml").read_text(encoding="utf-8")
 STUDY = """
 case = "case.toml"
 [over]

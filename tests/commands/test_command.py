@@ -20,8 +20,9 @@ from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 
 import railbridge as rb
-from railbridge.cases import command as cli
-from railbridge.cases import pages, shelf, speech
+from railbridge.cases import pages, shelf
+from railbridge.commands import command as cli
+from railbridge.commands import speech
 
 SCHEMA = pages.schema()
 VALID = Draft202012Validator(SCHEMA)
@@ -402,14 +403,14 @@ def test_a_starter_that_finds_no_room_leaves_nothing(here):
     assert cli.main(["new", "mine.toml"]) == 0
 
 
-@pytest.mark.parametrize("module", ["__init__", "cases/command"])
+@pytest.mark.parametrize("module", ["__init__", "commands/command"])
 def test_ctrl_c_while_packages_are_loaded_is_one_line(tmp_path, module):
     """The program that is installed stands outside the package, which loads most of them."""
     root = Path(cli.__file__).parents[2]
     script = tomllib.loads((root.parent / "pyproject.toml").read_text(encoding="utf-8"))
     entry, _, function = script["project"]["scripts"]["railbridge"].partition(":")
     assert root.joinpath(f"{entry}.py").is_file()
-    for name in ("__init__", "cases/__init__", "cases/command"):
+    for name in ("__init__", "commands/__init__", "commands/command"):
         path = tmp_path / "railbridge" / f"{name}.py"
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("raise KeyboardInterrupt\n" if name == module else "")
