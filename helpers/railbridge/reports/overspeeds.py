@@ -1,0 +1,204 @@
+"""Results of many crossings: tables of peaks, and pictures over what varies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import studies
+from ..decks import Deck
+from ..plots.maps import label_of, scale_of
+from ..studies import OUTPUTS
+from .parts import Column, Notes, Picture, Table, Words, in_km_h
+from .pictures import over_one, over_speeds, over_two
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["failures", "key_peaks", "of_study", "peaks", "pictures", "whole"]
+
+_MOST_TRAINS = 24
+"""Trains whose lines one picture can hold."""
+_MOST_FAILURES = 10
+_LARGEST_SHEET = 200_000
+"""Rows of a sheet; a spreadsheet program takes a million, a reader less."""
+
+
+def asked(found: xr.Dataset) -> list[str]:
+    """Return the variables that a study was asked for, not those that belong to them."""
+    beside = {f"{q}{e}" for q in OUTPUTS for e in ("_min", "_max", "_time", "_static")}
+    beside |= {f"{q}_dynamic_factor" for q in OUTPUTS} | {"message", "signature", "distance"}
+    return [str(n) for n in found.data_vars if n not in beside and found[n].dtype.kind == "f"]
+
+
+def _worst_place(found: xr.Dataset, name: str) -> float | None:
+    """Return the place (m) where a quantity is largest; None of one without places."""
+    values = found[name]
+    if "x" not in values.dims or not np.isfinite(values.values).any():
+        return None
+    rest = [dim for dim in values.dims if dim != "x"]
+    return float(values.max(rest).idxmax("x"))
+
+
+# ---- trains over speeds
+
+
+def peaks(found: xr.Dataset) -> Table:
+    """Return the largest value of each quantity for each train: where, when, at which speed."""
+    heads = ["what", "train", ("largest", ""), "unit", ("speed", "m/s"), ("speed", "km/h"),
+             ("x", "m"), ("at", "s"), "static", Column("dynamic factor", digits=3)]  # fmt: skip
+    rows = [
+        _peak(found, name, train)
+        for name in asked(found)
+        for train in found["train"].values.tolist()
+    ]
+    note = (
+        "Magnitudes, without the deck's self-weight. Static: under the standing axle loads at the "
+        "same place; the dynamic factor is the largest value divided by it."
+    )
+    return Table.of("peaks", "Largest values of each train over the speeds", heads, rows, note=note)
+
+
+def _peak(found: xr.Dataset, name: str, train: Any) -> tuple[Any, ...]:
+    own = found.sel(train=train)
+    values, (factor, unit) = own[name], scale_of(found, name)
+    words = label_of(found, name)
+    if not np.isfinite(values.values).any():
+        return words, str(train), None, unit, None, None, None, None, None, None
+    at = dict(zip(values.dims, np.unravel_index(np.nanargmax(values.values), values.shape), strict=True))
+    speed = float(own["speed"].values[at["speed"]])
+
+    def of(ending: str, size: float) -> float | None:
+        other = own.get(f"{name}{ending}")
+        return None if other is None else size * float(other.isel(at))
+
+    place = float(own["x"].values[at["x"]]) if "x" in at else None
+    return (
+        words, str(train), factor * float(values.isel(at)), unit, speed, in_km_h(speed), place,
+        of("_time", 1.0), of("_static", factor), of("_dynamic_factor", 1.0),
+    )  # fmt: skip
+
+
+def key_peaks(found: xr.Dataset) -> list[tuple[Any, ...]]:
+    """Return the largest value of each quantity over all trains: what, value, unit, where, when."""
+    rows = []
+    for name in asked(found):
+        own = [_peak(found, name, train) for train in found["train"].values.tolist()]
+        own = [row for row in own if row[2] is not None]
+        if own:
+            words, train, value, unit, speed, fast, place, *_ = max(own, key=lambda row: row[2])
+            where = train + (f", x = {place:.4g} m" if place is not None else "")
+            rows.append((words, value, unit, f"{where}, {speed:.4g} m/s, {fast:.4g} km/h", None))
+    return rows
+
+
+def pictures(found: xr.Dataset, deck: Deck) -> Iterator[Picture]:
+    """Give a picture over the speed for each quantity, at the place where it is largest."""
+    for name in asked(found):
+        place = _worst_place(found, name)
+        if set(found[name].dims) - {"x"} != {"train", "speed"}:
+            continue
+        if not np.nanmax(np.where(np.isfinite(found[name].values), found[name].values, 0.0)) > 0.0:
+            continue
+        yield over_speeds(found, name, place, deck)
+
+
+# ---- studies of any keys
+
+
+def of_study(found: xr.Dataset) -> Iterator[Table | Picture]:
+    """Give the largest value of each variable, and pictures where there are one or two dimensions."""
+    yield _largest(found)
+    for name in asked(found):
+        values, place = found[name], _worst_place(found, name)
+        dims = [str(d) for d in values.dims if d != "x" and found.sizes[d] > 1]
+        rest = [d for d in dims if d != "train"]
+        title = label_of(found, name).capitalize() + (f" at x = {place:g} m" if place else "")
+        picture = None
+        if len(rest) == 1 and found.sizes.get("train", 1) <= _MOST_TRAINS:
+            picture = over_one(_squeezed(found, dims), name, place, rest[0], title)
+        elif len(rest) == 0 and dims:
+            picture = over_one(_squeezed(found, dims).rename(train="trains"), name, place, "trains", title)
+        elif len(rest) == 2:
+            picture = _map(found, dims, name, place, title)
+        if picture is not None:
+            yield picture
+
+
+def _map(
+    found: xr.Dataset, dims: list[str], name: str, place: float | None, title: str
+) -> Picture | None:
+    own = _squeezed(found, dims)
+    if "train" in dims:
+        values = own[name]
+        worst = values.max([d for d in values.dims if d != "train"]).idxmax("train").item()
+        own, title = own.sel(train=worst), f"{title}, train {worst}"
+    return over_two(own, name, place, title)
+
+
+def _squeezed(found: xr.Dataset, dims: list[str]) -> xr.Dataset:
+    """Return a study without the dimensions of one value."""
+    single = {d: 0 for d in found.sizes if d not in (*dims, "x")}
+    return found.isel(single)
+
+
+def _largest(found: xr.Dataset) -> Table:
+    dims = [str(d) for d in found.sizes if d != "x"]
+    heads = ["what", ("largest", ""), "unit", *[_head(found, d) for d in dims], ("x", "m"),
+             "static", Column("dynamic factor", digits=3)]  # fmt: skip
+    rows = []
+    for name in asked(found):
+        values, (factor, unit) = found[name], scale_of(found, name)
+        if not np.isfinite(values.values).any():
+            rows.append((label_of(found, name), None, unit, *[None] * (len(dims) + 3)))
+            continue
+        index = np.unravel_index(np.nanargmax(values.values), values.shape)
+        at = dict(zip(values.dims, index, strict=True))
+        places = [found[d].values[at[d]] if d in at else None for d in (*dims, "x") if d in found]
+        places += [None] * (len(dims) + 1 - len(places))
+        static = found.get(f"{name}_static")
+        dynamic = found.get(f"{name}_dynamic_factor")
+        rows.append((
+            label_of(found, name), factor * float(values.isel(at)), unit, *places,
+            None if static is None else factor * float(static.isel(at)),
+            None if dynamic is None else float(dynamic.isel(at)),
+        ))  # fmt: skip
+    return Table.of("largest", "Largest values, and where they are", heads, rows)
+
+
+def _head(found: xr.Dataset, dim: str) -> Column:
+    return Column(dim, str(found[dim].attrs.get("units", "")), digits=6)
+
+
+# ---- both
+
+
+def failures(found: xr.Dataset) -> list[Words | Notes]:
+    """Return what is said of crossings without numbers."""
+    texts = [text for text in found["message"].values.ravel().tolist() if text]
+    if not texts:
+        return []
+    said = f"{len(texts)} of {found['message'].size} crossings have no numbers:"
+    each = list(dict.fromkeys(texts))
+    more = [f"and {len(each) - _MOST_FAILURES} other reasons"] * (len(each) > _MOST_FAILURES)
+    return [Words(said, "warning"), Notes((*each[:_MOST_FAILURES], *more), "warning")]
+
+
+def whole(found: xr.Dataset) -> Table:
+    """Return all numbers of a study, SI, a row a point and place; in the workbook alone."""
+    frame = studies.table(found)
+    columns = [Column(str(n), _unit(found, n)) for n in frame.columns]
+    rows = [tuple(map(_plain, row)) for row in frame[:_LARGEST_SHEET].itertuples(index=False)]
+    return Table("all numbers", "All numbers", tuple(columns), tuple(rows), on_page=False)
+
+
+def _unit(found: xr.Dataset, name: Any) -> str:
+    unit = str(found[name].attrs.get("units", ""))
+    return "" if unit == "-" else unit
+
+
+def _plain(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value
+
