@@ -5,11 +5,12 @@ from __future__ import annotations
 import argparse
 import tomllib
 
+from ..cases import shelf, tables
 from ..cases.definition import Case, case
 from ..errors import InputError, InputWarning
 from .speech import say, warn
 
-__all__ = ["changed_case", "options", "said_doubts"]
+__all__ = ["changed_case", "is_deck", "options", "said_doubts"]
 
 
 def options() -> argparse.ArgumentParser:
@@ -56,3 +57,12 @@ def said_doubts(loaded: Case, strict: bool) -> set[str]:
     else:
         warn(doubts)
     return {str(doubt) for doubt in doubts}
+
+
+def is_deck(name: str) -> bool:
+    """Whether a name is that of a shipped deck, or of a file with the keys of a deck's."""
+    if not shelf.is_path(name):
+        shipped = shelf.data_names("cases", ".toml")
+        return name not in shipped and name in shelf.data_names("decks", ".toml")
+    keys = shelf.read_toml(shelf.data_file("cases", name, ".toml")).keys()
+    return not keys & tables.CASE.model_fields.keys() and bool(keys & tables.DECK_KEYS)

@@ -6,10 +6,11 @@ A page is one file without scripts, and nothing in it is fetched from elsewhere.
 
 from .document import Report
 from .making import report, report_of_envelope, report_of_run, report_of_study
+from .extras import needed
 from .parts import Column, Notes, Picture, Section, Table, Words
 from .places import GENERATOR, refuse_foreign
 
 __all__ = [
     "Column", "GENERATOR", "Notes", "Picture", "Report", "Section", "Table", "Words",
-    "refuse_foreign", "report", "report_of_envelope", "report_of_run", "report_of_study",
+    "needed", "refuse_foreign", "report", "report_of_envelope", "report_of_run", "report_of_study",
 ]  # fmt: skip

@@ -9,7 +9,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from ..errors import InputError, printable
-from .needed import needed
+from .extras import needed
 from .parts import Section, Table
 from .places import GENERATOR, refuse_foreign, written
 from .workbooks import workbook_bytes

@@ -269,7 +269,7 @@ def report_of_study(
         _assumed(case, case.train),
         Section("Receipt", (
             choices(case.settings, case.deck, case.content),
-            inputs({**case.content, **({"study": dict(study)} if study else {})}), programs(),
+            inputs(_studied(case, study)), programs(),
         )),
     ]  # fmt: skip
     return Report(title or f"Study of a bridge: {case.deck.name}", about, tuple(sections))
@@ -377,6 +377,16 @@ def _content(case: Case, tables: Mapping[str, Mapping[str, Any]] | None) -> dict
     """Return the content that counts in an envelope: the trains in place of the case's own."""
     content = {key: value for key, value in case.content.items() if tables is None or key != "train"}
     return content if tables is None else {**content, "trains": dict(tables)}
+
+
+def _studied(case: Case, study: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Return the content that counts in a study: the first case, its trains, and the study."""
+    content = dict(case.content)
+    if study:
+        content["study"] = dict(study)
+        if isinstance(study.get("trains"), Mapping):
+            content["trains"] = study["trains"]
+    return content
 
 
 def _ends(found: xr.Dataset, dim: str) -> str:

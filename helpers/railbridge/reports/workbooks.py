@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import printable
-from .needed import needed
+from .extras import needed
 from .parts import Table
 from .places import GENERATOR
 
