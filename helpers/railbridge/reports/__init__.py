@@ -5,8 +5,8 @@ A page is one file without scripts, and nothing in it is fetched from elsewhere.
 """
 
 from .document import Report
-from .making import report, report_of_envelope, report_of_run, report_of_study
 from .extras import needed
+from .making import report, report_of_envelope, report_of_run, report_of_study
 from .parts import Column, Notes, Picture, Section, Table, Words
 from .places import GENERATOR, refuse_foreign
 

@@ -40,8 +40,8 @@ def assumptions(train: AnyTrain, deck: Deck, track: Track, settings: Settings) -
     s = settings
     count, last = len(deck.frequencies_hz), shown(deck.frequencies_hz[-1])
     found = [
-        f"The deck is linear and is described by its {count} lowest modes, up to {last} Hz. Section "
-        "forces, reactions and displacements also have the static part of the modes left out; "
+        f"The deck is linear and is described by its {count} lowest modes, up to {last} Hz. "
+        "Section forces, reactions and displacements also have the static part of the modes left out; "
         "accelerations do not, and depend on the cut-off."
         if not deck.recovery.lacks
         else f"The deck is linear and only {count} of its modes are known, up to {last} Hz: there "
@@ -50,8 +50,8 @@ def assumptions(train: AnyTrain, deck: Deck, track: Track, settings: Settings) -
     ]
     if isinstance(train, AxleTrain):
         found.append(
-            "The train is a row of constant axle loads without suspension or mass: nothing that the "
-            "deck or the track does changes them, and wheel unloading is not computed."
+            "The train is a row of constant axle loads without suspension or mass: nothing that "
+            "the deck or the track does changes them, and wheel unloading is not computed."
         )
     else:
         found += [_wheels(train, s), _LOADS[s.loads], _INTERACTION[s.interaction]]
@@ -64,12 +64,12 @@ def assumptions(train: AnyTrain, deck: Deck, track: Track, settings: Settings) -
     found.append(
         "The track is perfectly level: no irregularity excites the train."
         if track.level
-        else "The track is uneven as given; from a run-up before the deck on, as stated with how it "
-        "was computed."
+        else "The track is uneven as given; from a run-up before the deck on, as stated with how "
+        "it was computed."
     )
     found.append(
-        "Values are those of the moving train alone: dynamic, without the deck's self-weight, which "
-        "stands apart. Forces are those on the deck, up positive; displacements down are negative."
+        "Values are those of the moving train alone: dynamic, without the deck's self-weight, "
+        "which stands apart. Forces are those on the deck, up positive; displacements down are negative."
     )
     return found
 
@@ -85,19 +85,19 @@ def _wheels(train: AnyTrain, settings: Settings) -> str:
     if settings.contact == "hertz":
         return f"{mass}; the contact follows Hertz's law, and wheels can leave the rail."
     return (
-        f"{mass}; contact is permanent: a wheel that would lift off pulls on the rail instead, which "
-        "a remark tells of."
+        f"{mass}; contact is permanent: a wheel that would lift off pulls on the rail instead, "
+        "which a remark tells of."
     )
 
 
 def left_out() -> list[str]:
     """Return what no calculation of this program holds."""
     return [
-        "Flanges, creep and slip between wheel and rail: lateral wheel forces are spring forces, and "
-        "no statement on derailment by the ratio of lateral to vertical force is made.",
-        "Braking and traction, centrifugal force in curves, wind, temperature, settlements, creep and "
-        "cracking of the deck, and fatigue.",
+        "Flanges, creep and slip between wheel and rail: lateral wheel forces are spring forces, "
+        "and no statement on derailment by the ratio of lateral to vertical force is made.",
+        "Braking and traction, centrifugal force in curves, wind, temperature, settlements, creep "
+        "and cracking of the deck, and fatigue.",
         "A second train on the bridge at the same time.",
-        "Cars are linear: bump stops, friction and the softening of high cars under gravity are not "
-        "there.",
+        "Cars are linear: bump stops, friction and the softening of high cars under gravity are "
+        "not there.",
     ]

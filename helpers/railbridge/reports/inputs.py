@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
-
 
 from .. import exchange
 from ..cases import shelf, tables
@@ -31,13 +30,22 @@ _MOST_KINDS = 4
 """Kinds of cars whose bodies and springs are shown."""
 
 
-def tables_of_case(content: Mapping[str, Any]) -> list[Table]:
-    """Return the tables of a case as they were given, each key with its meaning."""
+def tables_of_case(content: Mapping[str, Any], hidden: Collection[str] = ()) -> list[Table]:
+    """Return the tables of a case as they were given, each key with its meaning.
+
+    Parameters
+    ----------
+    content : mapping
+    hidden : collection of str
+        Tables and keys, as ``run.speed``, that do not count.
+    """
     known = checked(tables.CASE, dict(content))
     found = []
     for name, given in content.items():
-        typed = getattr(known, name, None)
-        rows = list(_rows("", names_only(given), typed))
+        rows = _rows("", names_only(given), getattr(known, name, None))
+        rows = [row for row in rows if f"{name}.{row[0]}" not in hidden]
+        if name in hidden or not rows:
+            continue
         found.append(Table.of(f"case {name}", f"[{name}] of the case", _KEYS, rows))
     return found
 
@@ -189,7 +197,9 @@ def resolved_train(train: AnyTrain, parameters: bool = False) -> list[Table]:
         if train.notches:
             rows.append(("notches in wheels", len(train.notches), ""))
     found = [
-        Table.of("train", "The train as computed", ["what", Column("value", digits=5), "unit"], rows)
+        Table.of(
+            "train", "The train as computed", ["what", Column("value", digits=5), "unit"], rows
+        )
     ]
     for number, (vehicle, _) in enumerate(train.kinds()[:_MOST_KINDS], start=1):
         found += [_bodies(vehicle, number), _springs(vehicle, number, not parameters)]
@@ -246,5 +256,3 @@ def modes_table(deck: Deck) -> Table:
     heads = ["mode", ("frequency", "Hz"), Column("damping", "% of critical", 3), "name",
              "kept for accelerations"]  # fmt: skip
     return Table.of("modes", "Modes of the deck", heads, rows, note=note)
-
-

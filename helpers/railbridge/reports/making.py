@@ -12,7 +12,7 @@ from ..cases.definition import Case
 from ..codes import Answer, Verdicts
 from ..crossing import NotConvergedError
 from ..decks import Deck
-from ..errors import InputError, InputWarning, Remark
+from ..errors import InputError, Remark
 from ..notices import unsettled
 from ..results import Crossing
 from ..trains import AnyTrain
@@ -136,7 +136,9 @@ def report_of_run(
     errors.instance("run", run, Crossing)
     summary, remarks = case.summary(run), case.remarks(run)
     speed = case.settings.speed
-    about = f"{_train(case.train)} over {case.deck.name}, {case.deck.length:g} m, at {_speed(speed)}"
+    about = (
+        f"{_train(case.train)} over {case.deck.name}, {case.deck.length:g} m, at {_speed(speed)}"
+    )
     trouble = ""
     if run.converged is False:
         given = run.settings.iterations is not None
@@ -211,16 +213,14 @@ def report_of_envelope(
         verdicts_section(verdicts, rules),
         _inputs(case, trains, speeds=speeds, own_train=False),
         _modes(case.deck),
-        Section("Results", (peaks(found), *pictures(found, case.deck), whole(found))),
+        Section("Results", (*peaks(found), *pictures(found, case.deck), whole(found))),
         _assumed(case, next(iter(trains.values()))),
         Section("Receipt", (
             choices(case.settings, case.deck, case.content), inputs(content), programs(),
         )),
     ]  # fmt: skip
     verdict = "" if verdicts is None else verdicts.verdict
-    return Report(
-        title or f"Trains on a bridge: {case.deck.name}", about, tuple(sections), verdict
-    )
+    return Report(title or f"Trains on a bridge: {case.deck.name}", about, tuple(sections), verdict)
 
 
 def report_of_study(
@@ -329,10 +329,11 @@ def _inputs(
     own_train: bool = True,
 ) -> Section:
     given = dict(case.content)
+    hidden = [] if speeds is None else ["run.speed"]
     if not own_train:  # those of the envelope instead
         given.pop("train", None)
-    tables = [t for t in tables_of_case(case.content) if own_train or t.name != "case train"]
-    parts: list[Any] = [*tables]
+        hidden.append("train")
+    parts: list[Any] = [*tables_of_case(case.content, hidden)]
     if speeds is not None:
         rows = [(i, float(v), in_km_h(v)) for i, v in enumerate(speeds, start=1)]
         heads = ["number", ("speed", "m/s"), ("speed", "km/h")]
@@ -352,7 +353,14 @@ def _inputs(
 
 
 def _trains(trains: Mapping[str, AnyTrain]) -> Table:
-    heads = ["train", "axles", ("length", "m"), ("heaviest axle", "kN"), ("all axles", "kN"), "kind"]
+    heads = [
+        "train",
+        "axles",
+        ("length", "m"),
+        ("heaviest axle", "kN"),
+        ("all axles", "kN"),
+        "kind",
+    ]
     rows = []
     for name, train in trains.items():
         loads = [axle.static_load for car in train.formation for axle in car.axles]
@@ -375,7 +383,9 @@ def _assumed(case: Case, train: AnyTrain) -> Section:
 
 def _content(case: Case, tables: Mapping[str, Mapping[str, Any]] | None) -> dict[str, Any]:
     """Return the content that counts in an envelope: the trains in place of the case's own."""
-    content = {key: value for key, value in case.content.items() if tables is None or key != "train"}
+    content = {
+        key: value for key, value in case.content.items() if tables is None or key != "train"
+    }
     return content if tables is None else {**content, "trains": dict(tables)}
 
 

@@ -107,7 +107,9 @@ def _wheels(s: Mapping[str, Any]) -> Table:
             words = "largest unloading, 1 - force / static"
             rows.append(_wheel(where, words, "-", 1.0, unloading["max"]))
     heads = ["where", "what", "unit", "value", ("at", "s"), "car", "wheel"]
-    note = "Vertical forces on the deck, static part included; up positive, so a weight is negative."
+    note = (
+        "Vertical forces on the deck, static part included; up positive, so a weight is negative."
+    )
     return Table.of("wheels", "Wheel forces", heads, rows, note=note)
 
 
@@ -123,7 +125,11 @@ def _of_bodies(name: str, entry: Mapping[str, Any]) -> tuple[Any, ...]:
     for key in ("min", "max"):
         found = entry[key]
         body = f", {found['body']}" if "body" in found else ""
-        cells += [factor * found["value"], found["t"], f"car {found['car']}{body}, {found['place']}"]
+        cells += [
+            factor * found["value"],
+            found["t"],
+            f"car {found['car']}{body}, {found['place']}",
+        ]
     return tuple(cells)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from .. import studies
 from ..decks import Deck
 from ..plots.maps import label_of, scale_of
 from ..studies import OUTPUTS
-from .parts import Column, Notes, Picture, Table, Words, in_km_h
+from .parts import DIGITS, Column, Notes, Picture, Table, Words, in_km_h
 from .pictures import over_one, over_speeds, over_two
 
 if TYPE_CHECKING:
@@ -21,6 +22,8 @@ __all__ = ["failures", "key_peaks", "of_study", "peaks", "pictures", "whole"]
 
 _MOST_TRAINS = 24
 """Trains whose lines one picture can hold."""
+_MOST_ROWS = 60
+"""Rows of a table on the page; more are in the workbook."""
 _MOST_FAILURES = 10
 _LARGEST_SHEET = 200_000
 """Rows of a sheet; a spreadsheet program takes a million, a reader less."""
@@ -45,39 +48,64 @@ def _worst_place(found: xr.Dataset, name: str) -> float | None:
 # ---- trains over speeds
 
 
-def peaks(found: xr.Dataset) -> Table:
-    """Return the largest value of each quantity for each train: where, when, at which speed."""
-    heads = ["what", "train", ("largest", ""), "unit", ("speed", "m/s"), ("speed", "km/h"),
-             ("x", "m"), ("at", "s"), "static", Column("dynamic factor", digits=3)]  # fmt: skip
-    rows = [
-        _peak(found, name, train)
-        for name in asked(found)
-        for train in found["train"].values.tolist()
-    ]
-    note = (
-        "Magnitudes, without the deck's self-weight. Static: under the standing axle loads at the "
-        "same place; the dynamic factor is the largest value divided by it."
-    )
-    return Table.of("peaks", "Largest values of each train over the speeds", heads, rows, note=note)
+def peaks(found: xr.Dataset) -> Iterator[Table]:
+    """Give for each quantity the largest value of every train: at which speed, where, when."""
+    trains = found["train"].values.tolist()
+    for name in asked(found):
+        own = [_peak(found, name, train) for train in trains]
+        words, unit = label_of(found, name), own[0].unit
+        columns = [
+            ("train", "", [str(train) for train in trains]),
+            ("largest", unit, [p.value for p in own]),
+            ("speed", "m/s", [p.speed for p in own]),
+            ("speed", "km/h", [None if p.speed is None else in_km_h(p.speed) for p in own]),
+            ("x", "m", [p.x for p in own]),
+            ("at", "s", [p.time for p in own]),
+            ("static", unit, [p.static for p in own]),
+            ("dynamic factor", "", [p.factor for p in own]),
+        ]
+        # A whole crossing has no place, an acceleration no static value.
+        columns = [c for c in columns if c[0] == "train" or any(v is not None for v in c[2])]
+        heads = [
+            Column(head, u, 3 if head == "dynamic factor" else DIGITS) for head, u, _ in columns
+        ]
+        static = any(c[0] == "static" for c in columns)
+        note = "Magnitude, without the deck's self-weight."
+        note += " Static: under the standing axle loads at the same place." * static
+        title = f"{words.capitalize()} of each train over the speeds"
+        rows = zip(*(values for _, _, values in columns), strict=True)
+        yield Table.of(f"peaks {name}", title, heads, rows, note=note)
 
 
-def _peak(found: xr.Dataset, name: str, train: Any) -> tuple[Any, ...]:
+@dataclass(frozen=True)
+class _Peak:
+    """The largest value of a quantity for one train, in the unit in which it is shown."""
+
+    unit: str
+    value: float | None = None
+    speed: float | None = None
+    x: float | None = None
+    time: float | None = None
+    static: float | None = None
+    factor: float | None = None
+
+
+def _peak(found: xr.Dataset, name: str, train: Any) -> _Peak:
     own = found.sel(train=train)
-    values, (factor, unit) = own[name], scale_of(found, name)
-    words = label_of(found, name)
+    values, (size, unit) = own[name], scale_of(found, name)
     if not np.isfinite(values.values).any():
-        return words, str(train), None, unit, None, None, None, None, None, None
-    at = dict(zip(values.dims, np.unravel_index(np.nanargmax(values.values), values.shape), strict=True))
-    speed = float(own["speed"].values[at["speed"]])
+        return _Peak(unit)
+    index = np.unravel_index(np.nanargmax(values.values), values.shape)
+    at = dict(zip(values.dims, index, strict=True))
 
-    def of(ending: str, size: float) -> float | None:
+    def of(ending: str, by: float) -> float | None:
         other = own.get(f"{name}{ending}")
-        return None if other is None else size * float(other.isel(at))
+        return None if other is None else by * float(other.isel(at))
 
-    place = float(own["x"].values[at["x"]]) if "x" in at else None
-    return (
-        words, str(train), factor * float(values.isel(at)), unit, speed, in_km_h(speed), place,
-        of("_time", 1.0), of("_static", factor), of("_dynamic_factor", 1.0),
+    return _Peak(
+        unit, size * float(values.isel(at)), float(own["speed"].values[at["speed"]]),
+        float(own["x"].values[at["x"]]) if "x" in at else None,
+        of("_time", 1.0), of("_static", size), of("_dynamic_factor", 1.0),
     )  # fmt: skip
 
 
@@ -85,12 +113,13 @@ def key_peaks(found: xr.Dataset) -> list[tuple[Any, ...]]:
     """Return the largest value of each quantity over all trains: what, value, unit, where, when."""
     rows = []
     for name in asked(found):
-        own = [_peak(found, name, train) for train in found["train"].values.tolist()]
-        own = [row for row in own if row[2] is not None]
+        own = [(_peak(found, name, train), str(train)) for train in found["train"].values.tolist()]
+        own = [(peak, train) for peak, train in own if peak.value is not None]
         if own:
-            words, train, value, unit, speed, fast, place, *_ = max(own, key=lambda row: row[2])
-            where = train + (f", x = {place:.4g} m" if place is not None else "")
-            rows.append((words, value, unit, f"{where}, {speed:.4g} m/s, {fast:.4g} km/h", None))
+            peak, train = max(own, key=lambda pair: pair[0].value)
+            where = train + ("" if peak.x is None else f", x = {peak.x:.4g} m")
+            where += f", {peak.speed:.4g} m/s, {in_km_h(peak.speed):.4g} km/h"
+            rows.append((label_of(found, name), peak.value, peak.unit, where, None))
     return rows
 
 
@@ -120,11 +149,14 @@ def of_study(found: xr.Dataset) -> Iterator[Table | Picture]:
         if len(rest) == 1 and found.sizes.get("train", 1) <= _MOST_TRAINS:
             picture = over_one(_squeezed(found, dims), name, place, rest[0], title)
         elif len(rest) == 0 and dims:
-            picture = over_one(_squeezed(found, dims).rename(train="trains"), name, place, "trains", title)
+            picture = over_one(
+                _squeezed(found, dims).rename(train="trains"), name, place, "trains", title
+            )
         elif len(rest) == 2:
             picture = _map(found, dims, name, place, title)
         if picture is not None:
             yield picture
+    yield _values(found)
 
 
 def _map(
@@ -168,6 +200,22 @@ def _largest(found: xr.Dataset) -> Table:
     return Table.of("largest", "Largest values, and where they are", heads, rows)
 
 
+def _values(found: xr.Dataset) -> Table:
+    """Return what was asked for, a row a point and place; on the page where there are few."""
+    dims = [str(d) for d in found.sizes if d != "x"]
+    frame = studies.table(found)
+    names = asked(found)
+    places = ["x"] * ("x" in frame.columns)
+    heads = [*[_head(found, d) for d in [*dims, *places]]]
+    heads += [Column(label_of(found, n), scale_of(found, n)[1]) for n in names]
+    factors = [1.0] * (len(dims) + len(places)) + [scale_of(found, n)[0] for n in names]
+    rows = [
+        tuple(v * f if f != 1.0 else _plain(v) for v, f in zip(row, factors, strict=True))
+        for row in frame[[*dims, *places, *names]].itertuples(index=False)
+    ]
+    return Table.of("values", "Values", heads, rows, on_page=len(rows) <= _MOST_ROWS)
+
+
 def _head(found: xr.Dataset, dim: str) -> Column:
     return Column(dim, str(found[dim].attrs.get("units", "")), digits=6)
 
@@ -201,4 +249,3 @@ def _unit(found: xr.Dataset, name: Any) -> str:
 
 def _plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
-

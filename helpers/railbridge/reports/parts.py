@@ -22,6 +22,8 @@ DIGITS = 4
 """Significant digits of a result."""
 INPUT_DIGITS = 10
 """The same of what was given, which a checker compares with a drawing."""
+_SHORT = 14
+"""Letters of a text that is not broken."""
 _LONGEST_WORD = 36
 """Letters of a word that may be broken."""
 NOTHING = "-"
@@ -194,6 +196,8 @@ def _cell(value: Any, column: Column, look: str) -> tuple[str, str]:
     text = shown(value, column.digits)
     if column.verdicts:
         return text, "verdict " + text.replace(" ", "-")
+    if len(text) <= _SHORT:
+        return text, f"{look} short"
     if max(map(len, text.split()), default=0) > _LONGEST_WORD:
         return text, f"{look} long"
     return text, look

@@ -127,7 +127,9 @@ def histories(run: Crossing, points: Sequence[float]) -> Iterator[Picture]:
     def over_places(function: Callable[..., Any], **options: Any) -> Callable[[Any], None]:
         def draw(ax: Axes) -> None:
             for i, x in enumerate(places):
-                line = {} if len(places) == 1 else {"color": RUN_COLOURS[i], "label": f"x = {x:g} m"}
+                line = (
+                    {} if len(places) == 1 else {"color": RUN_COLOURS[i], "label": f"x = {x:g} m"}
+                )
                 function(run, x, ax=ax, **options, **line)
 
         return draw

@@ -82,9 +82,11 @@ def _named_files(content: Mapping[str, Any]) -> Iterator[tuple[str, str, str, tu
 
 def _of_train(train: Mapping[str, Any]) -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
     cars = train.get("cars")
-    named = [car.get("vehicle") if isinstance(car, Mapping) else car for car in cars] if isinstance(
-        cars, list
-    ) else [train.get("vehicle")]
+    named = (
+        [car.get("vehicle") if isinstance(car, Mapping) else car for car in cars]
+        if isinstance(cars, list)
+        else [train.get("vehicle")]
+    )
     for name in named:
         if isinstance(name, str):
             yield "vehicle", "vehicles", name, (".csv", ".toml")
