@@ -41,8 +41,8 @@ def assumptions(train: AnyTrain, deck: Deck, track: Track, settings: Settings) -
     count, last = len(deck.frequencies_hz), shown(deck.frequencies_hz[-1])
     found = [
         f"The deck is linear and is described by its {count} lowest modes, up to {last} Hz. "
-        "Section forces, reactions and displacements also have the static part of the modes left out; "
-        "accelerations do not, and depend on the cut-off."
+        "Section forces, reactions and displacements also have the static part of the modes left "
+        "out; accelerations do not, and depend on the cut-off."
         if not deck.recovery.lacks
         else f"The deck is linear and only {count} of its modes are known, up to {last} Hz: there "
         "are no section forces and reactions, and displacements lack the modes left out.",
@@ -69,7 +69,8 @@ def assumptions(train: AnyTrain, deck: Deck, track: Track, settings: Settings) -
     )
     found.append(
         "Values are those of the moving train alone: dynamic, without the deck's self-weight, "
-        "which stands apart. Forces are those on the deck, up positive; displacements down are negative."
+        "which stands apart. Forces are those on the deck, up positive; displacements down are "
+        "negative."
     )
     return found
 

@@ -45,8 +45,8 @@ def _at_points(points: Sequence[Mapping[str, Any]]) -> Table:
             if entry is not None:
                 rows.append((point["x"], *_entry(entry, *of_quantity(name))))
     note = (
-        "Without the deck's self-weight. Static: the extreme while the static axle loads move over; "
-        "the dynamic factor is the dynamic extreme on the same side divided by it."
+        "Without the deck's self-weight. Static: the extreme while the static axle loads move "
+        "over; the dynamic factor is the dynamic extreme on the same side divided by it."
     )
     return Table.of("extremes", "Extremes at the points of output", heads, rows, note=note)
 

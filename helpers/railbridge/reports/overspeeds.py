@@ -138,7 +138,7 @@ def pictures(found: xr.Dataset, deck: Deck) -> Iterator[Picture]:
 
 
 def of_study(found: xr.Dataset) -> Iterator[Table | Picture]:
-    """Give the largest value of each variable, and pictures where there are one or two dimensions."""
+    """Give the largest values, and pictures where one or two things vary."""
     yield _largest(found)
     for name in asked(found):
         values, place = found[name], _worst_place(found, name)

@@ -81,7 +81,7 @@ def in_km_h(speed: float) -> float:
 
 
 def of_quantity(name: str) -> tuple[str, float, str]:
-    """Return what a quantity is called, the factor from SI to the unit in which it is shown, and it.
+    """Return name, factor from SI and unit of a quantity as it is shown.
 
     Lengths in mm, forces in kN, as pictures have them.
     """

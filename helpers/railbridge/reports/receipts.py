@@ -26,8 +26,6 @@ __all__ = [
     "random_tables",
 ]  # fmt: skip
 
-_SPECTRUM = "german-low"
-"""What a random track is drawn from if it does not say."""
 _PROGRAMS = ("numpy", "scipy")
 
 
@@ -76,8 +74,8 @@ def _named_files(content: Mapping[str, Any]) -> Iterator[tuple[str, str, str, tu
     for table in _tables(content.get("track", {})):
         if table.get("kind") == "file" and isinstance(table.get("file"), str):
             yield "track", "tracks", table["file"], (".csv",)
-        if table.get("kind") == "random":
-            yield "spectrum", "spectra", table.get("spectrum", _SPECTRUM), (".toml", ".csv")
+        if table.get("kind") == "random" and isinstance(table.get("spectrum"), str):
+            yield "spectrum", "spectra", table["spectrum"], (".toml",)
 
 
 def _of_train(train: Mapping[str, Any]) -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
@@ -182,8 +180,8 @@ def choices(
     rows.append(("modes of the deck", _modes(deck)))
     rows.append(("damping of the deck", damping_in_words(deck)))
     for table in random_tables(content):
-        spectrum, band = table.get("spectrum", _SPECTRUM), table.get("band")
-        said = f"{names_only(spectrum)}, seed {exact(table.get('seed', 0))}"
+        spectrum, band = table.get("spectrum"), table.get("band")
+        said = f"{exact(names_only(spectrum))}, seed {exact(table.get('seed', 0))}"
         said += "" if band is None else f", waves of {exact(band[0])} to {exact(band[-1])} m"
         rows.append(("random track", said))
     return Table.of("choices", "How it was computed", ["choice", "value"], rows)

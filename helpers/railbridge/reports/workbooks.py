@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -18,6 +19,9 @@ __all__ = ["workbook_bytes"]
 
 _FORMULA = ("=", "+", "-", "@")
 """With which a text begins that a program might take for a formula."""
+_NOT_IN_NAMES = re.compile(r"[][:*?/\\]")
+_LONGEST_NAME = 31
+"""Letters of a sheet's name."""
 _WIDEST = 60
 """Letters of a column."""
 _LONGEST_CELL = 32_000
@@ -52,7 +56,7 @@ def workbook_bytes(title: str, tables: Sequence[Table]) -> bytes:
     book.properties.creator = GENERATOR
     book.properties.title = printable(title)
     for table in tables:
-        sheet = book.create_sheet(table.name[:31])
+        sheet = book.create_sheet(_sheet_name(table.name, book.sheetnames))
         for i, column in enumerate(table.columns, start=1):
             cell = sheet.cell(1, i)
             _write(cell, column.head)
@@ -70,6 +74,17 @@ def workbook_bytes(title: str, tables: Sequence[Table]) -> bytes:
     file = io.BytesIO()
     book.save(file)
     return file.getvalue()
+
+
+def _sheet_name(name: str, taken: Sequence[str]) -> str:
+    """Return a name that a sheet may have and no other one has: 31 letters, some signs not."""
+    plain = _NOT_IN_NAMES.sub(" ", printable(name)).strip("' ")[:_LONGEST_NAME] or "sheet"
+    lower, found, number = {each.lower() for each in taken}, plain, 1
+    while found.lower() in lower:
+        number += 1
+        end = f" {number}"
+        found = plain[: _LONGEST_NAME - len(end)] + end
+    return found
 
 
 def _write(cell: Any, value: Any) -> int:
