@@ -32,7 +32,7 @@ def test_lists_of_tables_are_taken_apart():
         {"kind": "harmonic", "amplitude": 1e-3, "wavelength": 10.0},
         {"kind": "table", "x": [float(i) for i in range(500)], "r": [0.0] * 500},
     ]
-    notch = {"wheels": [[1, 2]], "circumference": 2.9, "offset": 0.1, "depth": 1e-3, "length": 0.05}
+    notch = {"wheels": [[1, 2]], "circumference": 2.9, "offset": 0.1, "depth": 1e-3, "length": 0.5}
     changes = {"track.vertical": waves, "track.lateral": None, "train.notch": [notch]}
     case = rb.case("paper", {**changes, "run.time_step": None})
     tables = {table.name: cells(table) for table in tables_of_case(case.content)}

@@ -74,20 +74,17 @@ def test_hostile_names_are_letters(hostile, tmp_path):
     assert not [c for c in cells if c.data_type == "f"]
     risky = [c for c in cells if str(c.value).startswith("=")]
     assert risky and all(c.quotePrefix for c in risky)
-    assert found.title.endswith(f"{BAD} deck")
+    assert found.title.endswith("<b onclick=x> $d$")
 
 
 def test_hostile_rows_of_a_table_of_a_car_are_letters(tmp_path):
     car = tmp_path / "car.csv"
     text = (DATA / "vehicles/xia2000.csv").read_text(encoding="utf-8")
     quoted = BAD.replace('"', '""')
-    text = text.replace('"Amaral & Mazzilli 2016, Table 1"', f'"{quoted}"').replace(
-        "per damper", "=1+1"
-    )
-    car.write_text(text, encoding="utf-8")
-    case = rb.case(
-        "paper", {"train.vehicle": str(car), "train.cars": 1, "run.interaction": "rigid"}
-    )
+    text = text.replace('"Amaral & Mazzilli 2016, Table 1"', f'"{quoted}"')
+    car.write_text(text.replace("per damper", "=1+1"), encoding="utf-8")
+    changes = {"train.vehicle": str(car), "train.cars": 1, "run.interaction": "rigid"}
+    case = rb.case("paper", changes)
     page = Page(rb.reports.report_of_run(case).html())
     assert_harmless(page)
     assert BAD in page.text and "=1+1" in page.text

@@ -16,7 +16,8 @@ from railbridge.reports.parts import Column, Table, exact, in_km_h, of_quantity,
         (0.0, "0"), (-0.0, "0"), (1.0, "1"), (0.1, "0.1"), (2.5e-4, "2.5e-4"),
         (1 / 3, "0.3333"), (-7.2426107, "-7.243"), (5961.267, "5961"), (13224.4, "13224"),
         (9999.96, "10000"), (0.00099996, "0.001"), (0.99996, "1"), (1e-3, "0.001"),
-        (9.9999e6, "1e7"), (9.999e6, "9999000"), (8.8123456e10, "8.812e10"), (-1.23456e-12, "-1.235e-12"),
+        (9.9999e6, "1e7"), (9.999e6, "9999000"), (8.8123456e10, "8.812e10"),
+        (-1.23456e-12, "-1.235e-12"),
         (math.nan, "-"), (math.inf, "infinite"), ("a\x1bb", "a\\x1bb"), ("plain", "plain"),
     ],
 )  # fmt: skip
@@ -48,11 +49,13 @@ def test_units_are_those_of_pictures():
 
 def test_a_column_is_set_as_its_cells_are():
     table = Table.of("t", "T", ["a", ("b", "m"), "c", Column("d", verdicts=True)], [
-        ("x", 1.5, 1.0, "not met"), ("y" * 50, None, "words", "met"), ("some words in a row", 2, 3, "met"),
+        ("x", 1.5, 1.0, "not met"), ("y" * 50, None, "words", "met"),
+        ("some words in a row", 2, 3, "met"),
     ])  # fmt: skip
     assert table.classes == ["text", "number", "text", "text"]
     assert table.cells[0] == [
-        ("x", "text short"), ("1.5", "number short"), ("1", "text short"), ("not met", "verdict not-met"),
+        ("x", "text short"), ("1.5", "number short"), ("1", "text short"),
+        ("not met", "verdict not-met"),
     ]  # fmt: skip
     assert table.cells[1][0] == ("y" * 50, "text long")
     assert table.cells[1][1] == ("-", "number short")

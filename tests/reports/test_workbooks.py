@@ -30,7 +30,8 @@ def test_no_text_becomes_a_formula(text):
 
 def test_heads_have_units_and_numbers_all_their_digits():
     table = Table.of("sheet", "T", [("mass", "t"), Column("n"), "yes", "none"], [
-        (1 / 3, np.int64(4), True, None), (np.float64(2.0), 5, False, math.nan), (math.inf, 6, True, "x"),
+        (1 / 3, np.int64(4), True, None), (np.float64(2.0), 5, False, math.nan),
+        (math.inf, 6, True, "x"),
     ])  # fmt: skip
     sheet = opened(table)["sheet"]
     rows = [[cell.value for cell in row] for row in sheet.iter_rows()]

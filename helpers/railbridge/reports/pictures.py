@@ -157,7 +157,10 @@ def wheel_and_passes(run: Crossing) -> Iterator[Picture]:
         about = f"Force of the wheel that is unloaded most, wheel {wheel.number} of car {wheel.car}"
         about += ", on the deck, up positive"
         yield drawn(about, 2.7, lambda ax: plots.wheel_force(run, wheel.car, wheel.number, ax=ax))
-    if run.converged is not None and len(run.changes) > 1 and np.all(np.isfinite(run.changes)):
+    changes = np.array(run.changes)
+    if run.converged is not None and len(changes) > 1 and np.all(np.isfinite(changes)):
+        if not np.any(changes > 0.0):
+            return  # bare axle loads
         about = "Change of each pass"
         yield drawn(about, 2.4, lambda ax: plots.convergence(run, ax))
 
