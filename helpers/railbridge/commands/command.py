@@ -35,7 +35,7 @@ from .speech import Progress, nowhere, say, tell, warn
 
 __all__ = ["main"]
 
-FILES = ("points.csv", "wheels.csv", "reactions.csv", "iterations.csv", "summary.json")
+FILES = ("points.csv", "wheels.csv", "cars.csv", "reactions.csv", "iterations.csv", "summary.json")
 KINDS = ("vehicles", "trains", "decks", "spectra", "cases")
 
 DESCRIPTION = """\
@@ -67,9 +67,10 @@ examples:
 
 results (in the folder of --out; files of these names in it are replaced):
   summary.json     extremes with time and place, static values, dynamic factors, envelope,
-                   reactions, wheels, car bodies
+                   reactions, wheels, car bodies, and every car by itself
   points.csv       displacement, acceleration and section forces at output.points
   wheels.csv       lateral and vertical force of every wheel on the deck
+  cars.csv         accelerations of every car's body, front, middle and rear
   reactions.csv    forces of every bearing line on the deck
   iterations.csv   displacement of the first point after every iteration
   The first column of every CSV file is t, in s; the names of the others end with their unit.
