@@ -62,9 +62,10 @@ def test_the_largest_ratio_is_of_one_wheel_at_one_instant_while_it_presses():
 
 
 def test_wheels_of_planar_cars_and_bare_loads_are_not_held_sideways():
-    held = percar.held_sideways(MIXED.train)
-    assert held.tolist() == [True] * 8 + [False] * 4 + [True] * 8
-    assert not percar.held_sideways(rb.AxleTrain([0.0, 3.0], [1e5, 1e5])).any()
+    held = [percar.held_sideways(car).tolist() for car in MIXED.train.formation]
+    assert held == [[True] * 8, [False] * 4, [True] * 8]
+    (bare,) = rb.AxleTrain([0.0, 3.0], [1e5, 1e5]).formation
+    assert percar.held_sideways(bare).tolist() == [False, False]
 
 
 def test_bare_loads_are_no_cars_and_their_table_is_empty():

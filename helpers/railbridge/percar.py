@@ -10,7 +10,7 @@ import numpy as np
 
 from .decks import History
 from .errors import brief
-from .trains import AnyTrain, Car
+from .trains import Car
 
 __all__ = [
     "QUANTITIES",
@@ -155,15 +155,11 @@ def of_wheels(
     return whole and whole | {"on_deck": within}
 
 
-def held_sideways(train: AnyTrain) -> np.ndarray:
-    """Return whether springs or dampers hold every wheel sideways, shape (wheels,).
+def held_sideways(car: Car) -> np.ndarray:
+    """Return whether springs or dampers hold every wheel of a car sideways, shape (its wheels,).
 
     Those of planar vehicles and of bare axle loads are not held: they have no lateral force.
     """
-    return np.concatenate([_held_sideways(car) for car in train.formation])
-
-
-def _held_sideways(car: Car) -> np.ndarray:
     if car.vehicle is None:
         return np.zeros(len(car.wheels), dtype=bool)
     of_contacts = car.vehicle.contact_stiffness, car.vehicle.contact_damping
@@ -199,7 +195,7 @@ def of_car(
     """
     time = accelerations.time
     wheels = [{"wheel": wheel.number} for wheel in car.wheels]
-    lateral = np.where(_held_sideways(car)[:, None], forces[:, 0], np.nan)
+    lateral = np.where(held_sideways(car)[:, None], forces[:, 0], np.nan)
     static = np.array([[wheel.static_load] for wheel in car.wheels])
     load = np.where(forces[:, 1] < -_PARTED * static, -forces[:, 1], np.nan)
     found: dict[str, Any] = {}

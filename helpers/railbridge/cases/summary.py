@@ -227,10 +227,10 @@ def _deviations(run: Crossing) -> dict[str, Any]:
 
 def _wheels(run: Crossing) -> dict[str, Any]:
     places = [{"car": w.car, "wheel": w.number} for w in run.train.wheels]
-    sideways = percar.held_sideways(run.train)[:, None]
+    sideways = np.concatenate([percar.held_sideways(car) for car in run.train.formation])
     found = {
         "wheel_force_z": run.wheel_forces[:, 1],
-        "wheel_force_y": np.where(sideways, run.wheel_forces[:, 0], np.nan),
+        "wheel_force_y": np.where(sideways[:, None], run.wheel_forces[:, 0], np.nan),
         "wheel_unloading": run.wheel_unloading,
     }
     return {

@@ -30,7 +30,7 @@ from ..lessons import exercises, marking
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
-from . import changing, copies, drawing, studying
+from . import changing, copies, drawing, plotting, studying
 from .speech import Progress, nowhere, say, tell, warn
 
 __all__ = ["main"]
@@ -51,7 +51,8 @@ examples:
   railbridge run case.toml --out results     run it; results/summary.json has the numbers
   railbridge run paper --out paper           run a shipped case by its name
   railbridge run case.toml --out fast --set run.speed=30 --set train.cars=4
-  railbridge check deck.toml                 the same for a deck file, with its frequencies
+  railbridge plot case.toml --out pictures   run it and draw displacements, forces, car bodies
+  railbridge check deck.toml                 the check for a deck file, with its frequencies
   railbridge envelope deck.toml --trains HSLM-A --speeds 150:300km/h --out envelope
                                              the largest response to ten trains over speeds
   railbridge new --study study.toml          write a commented study file
@@ -234,6 +235,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     studying.add_commands(add)
     drawing.add_command(add, changes)
+    plotting.add_command(add, changes)
     add(
         "schema",
         _schema,
