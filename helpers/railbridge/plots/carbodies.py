@@ -26,9 +26,10 @@ def body_rows(
     The body's name is empty where the car has but one.
     """
     history = run.car_accelerations(car)
+    components = [errors.choice("components", way, WAYS) for way in components]
     bodies = [body.name for body in run.train.car(car).vehicle.car_bodies]
     return [
-        (body, errors.choice("components", way, WAYS))
+        (body, way)
         for body in (bodies if len(bodies) > 1 else [""])
         for way in components
         if not np.isnan(history[f"{body} front {way}".lstrip()]).all()
