@@ -12,7 +12,7 @@ from .. import codes, errors
 from ..codes import Answer, Verdicts
 from ..crossing import compute
 from ..decks import Deck
-from ..errors import InputError, brief
+from ..errors import brief
 from ..results import Crossing
 from ..settings import check
 from ..studies import Between, Row, Store, crossings, row_of_run

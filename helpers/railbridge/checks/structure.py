@@ -135,7 +135,7 @@ class Structure:
         deck = self.deck
         shapes = deck.shapes(np.linspace(0.0, deck.length, _PLACES))
         squares = (shapes**2).mean(axis=0)
-        # A rotation counts by how far it moves the slab, whose radius of gyration is width / 12^1/2.
+        # A rotation counts by how far it moves the slab: its radius of gyration, width / 12^0.5.
         squares[:, 2] *= (deck.width or 5.0) ** 2 / 12.0
         return squares.argmax(axis=1)
 
