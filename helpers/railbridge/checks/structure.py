@@ -95,7 +95,7 @@ class Structure:
             self.deck.recovery.section("moment_vertical", span.start) for span in self.spans[1:]
         ]
         sizes = [np.abs(line.influence.coefficients).max() for line in lines if line is not None]
-        return max(sizes, default=0.0) > _HINGE * self.deck.length
+        return bool(max(sizes, default=0.0) > _HINGE * self.deck.length)
 
     @property
     def simple(self) -> bool:
