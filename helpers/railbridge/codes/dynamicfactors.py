@@ -62,7 +62,7 @@ _TRACK = Clause(
     conditions=f"{_FIGURE}; any speed, for phi'' does not change from 22 m/s",
 )  # fmt: skip
 _EFFECT = Clause(
-    "moment by dynamic analysis", "EN 1991-2", "6.4.6.5", "N m", "two",
+    "dynamic moment of a train", "EN 1991-2", "6.4.6.5", "N m", "two",
     memory="number of the clause",
     conditions="bending moments; phi'_dyn of the same train on a smooth track",
 )  # fmt: skip
