@@ -20,14 +20,15 @@ class Requirements:
     line_speed : float
         Largest speed of the line, m/s; limits and the speeds of an analysis go by it.
     track : {"ballasted", "direct fastening"}
-        How the track lies on the deck; limits its acceleration.
+        How the track lies on the deck, ballasted or direct fastening; limits its acceleration.
     kind : str, optional
-        Kind of bridge, for the lower bound of damping. Left out: damping cannot be decided.
+        Kind of bridge, for the lower bound of damping: steel, composite, prestressed concrete,
+        filler beam or reinforced concrete. Left out: damping cannot be decided.
     simple : bool
         Whether the structure is a simple one: a beam or slab on two lines of bearings, not skew. A
         deck that runs through over several spans is none, whatever is said here.
     comfort : {"very good", "good", "acceptable"}
-        Level of comfort in the coaches.
+        Level of comfort in the coaches: very good, good or acceptable.
     careful_track : bool
         Whether the track is carefully maintained: Phi2 in place of Phi3.
     determinant_length : float, optional
