@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import railbridge as rb
 from railbridge.coupling import prepare
+from railbridge.decks import combined
 from railbridge.settings import check
 
 L, M, EI = 36.0, 12e3, 8.93e10
@@ -370,4 +371,21 @@ def test_a_deck_of_modes_alone_says_what_it_lacks():
         bare.influence("moment_vertical", at=18.0, places=[9.0])
     assert bare.influence("displacement_z", at=18.0, places=[18.0]) == pytest.approx(
         known.influence("displacement_z", at=18.0, places=[18.0]), rel=0.02
+    )
+
+
+def test_lines_add_up_wherever_their_sections_are():
+    deck = simple()
+    places = np.linspace(0.0, L, 401)
+    lines = [deck.recovery.section("moment_vertical", x) for x in (7.3, 18.0, 29.1)]
+    weights = (2.0, -1.0, 0.5)
+    own = combined(list(zip(weights, lines, strict=True)))
+    for derivative in (0, 1):
+        expected = sum(
+            w * line.influence(places, derivative) for w, line in zip(weights, lines, strict=True)
+        )
+        assert own.influence(places, derivative) == pytest.approx(expected, abs=1e-9)
+    assert own.modal == pytest.approx(sum(w * s.modal for w, s in zip(weights, lines, strict=True)))
+    assert own.self_weight == pytest.approx(
+        sum(w * line.self_weight for w, line in zip(weights, lines, strict=True))
     )

@@ -13,15 +13,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import errors
-from ..decks import SECTION_QUANTITIES, Deck, Line
+from ..decks import SECTION_QUANTITIES, Deck, History, Line, combined
 from ..errors import InputError
 from ..results import Crossing
+from ..tracks import TRACK_GAUGE, TWIST_LENGTH
 
-__all__ = ["ACCELERATIONS", "OUTPUTS", "Output", "Peaks", "outputs_at", "peaks_of_run"]
+__all__ = [
+    "ACCELERATIONS", "OUTPUTS", "Output", "Peaks", "history_of", "outputs_at", "peaks_of_run",
+    "twist_at",
+]  # fmt: skip
 
 ACCELERATIONS = {"acceleration_y": "m/s2", "acceleration_z": "m/s2", "acceleration_roll": "rad/s2"}
-OUTPUTS = {**SECTION_QUANTITIES, **ACCELERATIONS}
+OUTPUTS = {**SECTION_QUANTITIES, "twist": "m", **ACCELERATIONS}
 """Quantities that a study can be asked for at a place, with units."""
+_FORCES = ("moment", "torsion", "shear", "force")
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +36,7 @@ class Output:
     Attributes
     ----------
     quantity : str
-        One of `OUTPUTS`.
+        One of `OUTPUTS`, or what it is called: a name that begins with ``force`` is a bearing's.
     x : float
         m.
     modal : ndarray, shape (modes,)
@@ -52,8 +57,8 @@ class Output:
 
     @property
     def is_force(self) -> bool:
-        """Whether it is a section force, which the deck's viscosity carries too."""
-        return self.quantity.startswith(("moment", "torsion", "shear"))
+        """Whether it is a section force or a bearing's: the deck's viscosity carries it too."""
+        return self.quantity.startswith(_FORCES)
 
 
 def outputs_at(
@@ -87,11 +92,40 @@ def _output(deck: Deck, quantity: str, x: float) -> Output:
             raise InputError("quantities", quantity, "the deck does not move that way")
         modal = deck.shapes(np.array([x]))[0, :, component].copy()
         return Output(quantity, x, modal, None)
+    if quantity == "twist":
+        return twist_at(deck, x)
     line = deck.recovery.section(quantity, x)
     if line is None:
         allowed = deck.recovery.lacks or "the deck has no such stiffness"
         raise InputError("quantities", quantity, allowed, "Leave it out")
     return Output(quantity, x, line.modal, line)
+
+
+def twist_at(deck: Deck, x: float) -> Output:
+    """Return the twist of the track over the 3 m behind a place: by how much the left rail rises.
+
+    The gauge times the difference of rotations, ``1.435 m (theta(x + 3 m) - theta(x))``. What lies
+    beyond the ends of the deck does not rotate.
+
+    Parameters
+    ----------
+    deck : Deck
+    x : float
+        m; from 3 m before the deck on.
+
+    Raises
+    ------
+    InputError
+        A deck that is rigid in twist.
+    """
+    if not deck.has["roll"]:
+        raise InputError("quantities", "twist", "the deck is rigid in twist", "Leave it out")
+    ends = (-TWIST_LENGTH, 0.0, deck.length, deck.length + TWIST_LENGTH)
+    places = [(s, errors.place("x", x + d, ends)) for s, d in ((-1, 0.0), (1, TWIST_LENGTH))]
+    on_deck = [(s, place) for s, place in places if 0.0 <= place <= deck.length]
+    lines = [(s * TRACK_GAUGE, deck.recovery.section("rotation_x", place)) for s, place in on_deck]
+    line = combined(lines)
+    return Output("twist", float(x), line.modal, line)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,16 +165,25 @@ class Peaks:
         return np.maximum(-self.static_low, self.static_high)
 
 
+def history_of(run: Crossing, output: Output) -> History:
+    """Return the history of one output in a crossing, under its quantity's name."""
+    deck, state, name = run.deck, run.state, output.quantity
+    where, units = f"x = {output.x:g} m", {name: OUTPUTS.get(name, "")}
+    if output.is_force:
+        return run.recovered({name: output.line}, units, where=where)
+    if output.is_acceleration:
+        modal = deck.acceleration(state.q, state.velocity, state.modal_force)
+        return History(run.time, {name: output.modal @ modal}, units, where)
+    static, step = run.static(output.line), run.settings.time_step
+    values = deck.displaced(output.line, state.q, state.modal_force, static, step)
+    return History(run.time, {name: values}, units, where)
+
+
 def peaks_of_run(run: Crossing, outputs: Sequence[Output]) -> Peaks:
     """Return the extremes of one crossing that is computed already."""
     found = np.full((6, 1, len(outputs)), np.nan)
     for i, output in enumerate(outputs):
-        if output.is_acceleration:
-            history = run.acceleration(output.x)
-        elif output.is_force:
-            history = run.section_forces(output.x)
-        else:
-            history = run.displacement(output.x)
+        history = history_of(run, output)
         (low, low_time), (high, high_time) = history.extremes(output.quantity)
         static = (np.nan, np.nan) if output.line is None else run.static_extremes(output.line)
         found[:, 0, i] = low, high, low_time, high_time, *static
