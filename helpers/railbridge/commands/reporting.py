@@ -155,8 +155,18 @@ def _over_speeds(given: argparse.Namespace, loaded: Case | None) -> int:
     if loaded is None and not _sure(given, plan, asking):
         return 2
     found = _computed(given, plan, asking)
+    with studying.crossings_told(given.quiet) as progress:
+        judged = reports.judged_over_speeds(
+            plan.like, plan.trains, found.speed.values, workers=given.workers, progress=progress
+        )
     made = reports.report_of_envelope(
-        plan.like, plan.trains, found, tables=plan.tables, doubts=plan.doubts, title=given.title
+        plan.like,
+        plan.trains,
+        found,
+        assessment=judged,
+        tables=plan.tables,
+        doubts=plan.doubts,
+        title=given.title,
     )
     _write(given, made)
     return studying.FAILED if any(found.message.values.ravel().tolist()) else 0

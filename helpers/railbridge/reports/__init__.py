@@ -6,11 +6,19 @@ A page is one file without scripts, and nothing in it is fetched from elsewhere.
 
 from .document import Report
 from .extras import needed
-from .making import report, report_of_envelope, report_of_run, report_of_study
+from .judgements import judged_over_speeds, judged_run
+from .making import (
+    report,
+    report_of_assessment,
+    report_of_envelope,
+    report_of_run,
+    report_of_study,
+)
 from .parts import Column, Notes, Picture, Section, Table, Words
 from .places import GENERATOR, refuse_foreign
 
 __all__ = [
     "Column", "GENERATOR", "Notes", "Picture", "Report", "Section", "Table", "Words",
-    "needed", "refuse_foreign", "report", "report_of_envelope", "report_of_run", "report_of_study",
+    "judged_over_speeds", "judged_run", "needed", "refuse_foreign", "report",
+    "report_of_assessment", "report_of_envelope", "report_of_run", "report_of_study",
 ]  # fmt: skip

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import fields
+from typing import Any
 
+from ..cases.definition import Case
+from ..cases.tabletypes import meanings
+from ..checks import Assessment, Requirements, assess, assess_run
 from ..codes import Answer, Verdict, Verdicts
 from ..codes.clauses import GRADES
 from ..codes.verdicts import CANNOT_DECIDE
-from .parts import Column, Notes, Section, Table, Words, shown
+from ..results import Crossing
+from ..trains import AnyTrain
+from .parts import Column, Notes, Section, Table, Words, exact, in_km_h, shown
 
-__all__ = ["verdicts_section"]
+__all__ = ["judged_over_speeds", "judged_run", "requirements_table", "verdicts_section"]
 
 _UNITS = {
     "m": ("mm", 1e3), "N": ("kN", 1e-3), "N m": ("kN m", 1e-3), "rad": ("mrad", 1e3),
@@ -19,13 +26,44 @@ _UNITS = {
 _RADII = 100.0
 """m from which on a length stays in m: a radius is no deflection."""
 _HOW_TO_ASK = (
-    "No limits of a code were asked for, so this report gives no verdicts. Add a table [checks] to "
-    "the case, with the speed of the line and the kind of track, to have the results judged."
+    "No limits of a code were asked for, so this report gives no verdicts. To have the results "
+    "judged, add a table [checks] to the case file, with line_speed in m/s and, where they differ "
+    "from the defaults, track, kind and the other keys of docs/case.md."
 )
 
 
+def judged_run(case: Case, run: Crossing) -> Verdicts | None:
+    """Return the verdicts on a run by what the case asks for; None if it asks for nothing."""
+    return None if case.requirements is None else assess_run(run, case.requirements)
+
+
+def judged_over_speeds(
+    case: Case, trains: Mapping[str, AnyTrain], speeds: Sequence[float], **how: Any
+) -> Assessment | None:
+    """Return the assessment of trains over speeds by what the case asks for; None for nothing.
+
+    Parameters
+    ----------
+    case : Case
+        With the deck, the track and the choices; its own train and speed do not count.
+    trains : mapping of trains
+    speeds : sequence of float
+        m/s.
+    **how
+        ``workers``, ``progress``: see `checks.assess`.
+    """
+    if case.requirements is None:
+        return None
+    own = {key: value for key, value in case.options.items() if key != "speed"}
+    return assess(
+        case.deck, dict(trains), speeds, case.requirements, track=case.track, **how, **own
+    )
+
+
 def verdicts_section(
-    verdicts: Verdicts | None, rules: Mapping[str, Answer] | None = None
+    verdicts: Verdicts | None,
+    rules: Mapping[str, Answer] | None = None,
+    assessment: Assessment | None = None,
 ) -> Section:
     """Return the section of verdicts.
 
@@ -35,6 +73,8 @@ def verdicts_section(
         None where no limits were asked for.
     rules : mapping of Answer, optional
         What else codes answer, by name.
+    assessment : Assessment, optional
+        For what each train comes to.
     """
     parts: list[Words | Notes | Table] = []
     if verdicts is None:
@@ -46,6 +86,8 @@ def verdicts_section(
         undecided = [_undecided(v) for v in verdicts if v.verdict == CANNOT_DECIDE]
         if undecided:
             parts += [Words("Not decided:"), Notes(tuple(undecided))]
+    if assessment is not None and len(assessment.of_trains) > 1:
+        parts.append(_of_trains(assessment))
     if rules:
         parts.append(_rules(rules))
     return Section("Verdicts", tuple(parts))
@@ -99,6 +141,27 @@ def _sources(verdicts: Verdicts) -> Table:
     note = f"What is known {GRADES['memory']} must be looked up in the code before it is relied on."
     title = "Clauses, editions and sources"
     return Table.of("clauses", title, heads, rows, note=note)
+
+
+def _of_trains(assessment: Assessment) -> Table:
+    """Return what each train comes to by the clauses that trains decide."""
+    heads = ["train", "what", Column("verdict", verdicts=True), Column("value", digits=3), "unit",
+             Column("utilisation", digits=3), ("speed", "m/s"), ("speed", "km/h")]  # fmt: skip
+    rows = []
+    for (train, what), row in assessment.per_train().iterrows():
+        unit, factor = _UNITS.get(row["unit"], (row["unit"], 1.0))
+        speed = float(row["speed"])
+        utilisation = None if row["utilisation"] is None else float(row["utilisation"])
+        rows.append((str(train), what, row["verdict"], factor * float(row["value"]), unit or "-",
+                     utilisation, speed, in_km_h(speed)))  # fmt: skip
+    return Table.of("verdicts of trains", "What each train comes to", heads, rows)
+
+
+def requirements_table(needs: Requirements) -> Table:
+    """Return what the codes were told."""
+    rows = [(f.name, exact(getattr(needs, f.name)), meanings(Requirements)[f.name].replace("`", ""))
+            for f in fields(needs)]  # fmt: skip
+    return Table.of("requirements", "What the codes were told", ["key", "value", "meaning"], rows)
 
 
 def _rules(rules: Mapping[str, Answer]) -> Table:

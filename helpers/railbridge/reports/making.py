@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import errors
 from ..cases.definition import Case
+from ..checks import Assessment
 from ..codes import Answer, Verdicts
 from ..crossing import NotConvergedError
 from ..decks import Deck
@@ -19,25 +20,20 @@ from ..trains import AnyTrain
 from .assumptions import assumptions, left_out
 from .document import Report
 from .inputs import file_tables, modes_table, resolved_deck, resolved_train, tables_of_case
-from .judgements import verdicts_section
+from .judgements import judged_run, requirements_table, verdicts_section
 from .outcomes import key_results, tables_of_summary
 from .overspeeds import failures, key_peaks, of_study, peaks, pictures, whole
 from .parts import Column, Notes, Section, Table, Words, in_km_h, shown
-from .pictures import (
-    along_the_deck,
-    histories,
-    modes,
-    sketches,
-    track_picture,
-    wheel_and_passes,
-)
+from .pictures import modes, of_run, sketches, track_picture
 from .places import refuse_foreign
-from .receipts import choices, input_files, inputs, names_only, programs
+from .receipts import choices, input_files, inputs, made_in_python, names_only, programs
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["report", "report_of_envelope", "report_of_run", "report_of_study"]
+__all__ = [
+    "report", "report_of_assessment", "report_of_envelope", "report_of_run", "report_of_study",
+]  # fmt: skip
 
 _MOST_TRAINS = 3
 """Trains of an envelope that are sketched and shown with their numbers."""
@@ -46,7 +42,7 @@ _NOT_SETTLED = "The iteration did not settle: these numbers are not a solution."
 
 
 def report(
-    case: Case | Report,
+    case: Case | Assessment | Report,
     path: str | Path,
     *,
     run: Crossing | None = None,
@@ -60,8 +56,8 @@ def report(
 
     Parameters
     ----------
-    case : Case or Report
-        Of a report that was made before only the files are written.
+    case : Case, Assessment or Report
+        An assessment is reported as it is; of a report only the files are written.
     path : str or Path
         Of the page; ends in ``.html``.
     run : Crossing, optional
@@ -74,7 +70,8 @@ def report(
         When it was made; today if not given.
     progress : function of one text, optional
     **about
-        ``verdicts``, ``rules``, ``title``: see `report_of_run`.
+        ``verdicts``, ``rules``, ``title``: see `report_of_run`; ``trains``, ``title``: see
+        `report_of_assessment`.
 
     Returns
     -------
@@ -90,6 +87,8 @@ def report(
         refuse_foreign("workbook", workbook, ".xlsx", force)
     if isinstance(case, Report):
         made = case
+    elif isinstance(case, Assessment):
+        made = report_of_assessment(case, **about)
     else:
         made = report_of_run(case, run, progress=progress, **about)
     made.write(path, force=force, date=date)
@@ -115,7 +114,7 @@ def report_of_run(
     run : Crossing, optional
         Of this case; computed if not given. One that did not converge is reported as such.
     verdicts : Verdicts, optional
-        On its results; None where no limits were asked for.
+        On its results; those of the case's own ``[checks]`` if not given.
     rules : mapping of Answer, optional
         What else codes say, by name.
     title : str, optional
@@ -132,8 +131,9 @@ def report_of_run(
             run = case.compute(progress)
         except NotConvergedError as error:
             run = error.run
-    tell("extremes for the report")
     errors.instance("run", run, Crossing)
+    tell("extremes for the report")
+    verdicts = judged_run(case, run) if verdicts is None else verdicts
     summary, remarks = case.summary(run), case.remarks(run)
     speed = case.settings.speed
     about = (
@@ -151,8 +151,7 @@ def report_of_run(
         _inputs(case, {"": case.train}),
         _modes(case.deck),
         Section("Results", (
-            *tables_of_summary(summary), *along_the_deck(summary["envelope"]),
-            *histories(run, case.points), *wheel_and_passes(run),
+            *tables_of_summary(summary), *of_run(run, case.points.tolist()),
         )),
         _assumed(case, case.train),
         Section("Receipt", (
@@ -169,6 +168,7 @@ def report_of_envelope(
     found: xr.Dataset,
     *,
     tables: Mapping[str, Mapping[str, Any]] | None = None,
+    assessment: Assessment | None = None,
     verdicts: Verdicts | None = None,
     rules: Mapping[str, Answer] | None = None,
     doubts: Sequence[Remark] = (),
@@ -186,9 +186,12 @@ def report_of_envelope(
         Over ``train`` and ``speed``, as `speed_envelope` gives it.
     tables : mapping, optional
         Of the trains as a case has them, by name, for the receipt.
+    assessment : Assessment, optional
+        By the clauses of codes; None where no limits were asked for.
     verdicts : Verdicts, optional
-        On its results; None where no limits were asked for.
+        Instead of those of the assessment.
     rules : mapping of Answer, optional
+        Likewise.
     doubts : sequence of Remark
         What is unlikely to be meant.
     title : str, optional
@@ -206,11 +209,14 @@ def report_of_envelope(
     names = errors.counted(list(trains), 4)
     about = f"{names} over {case.deck.name}, {case.deck.length:g} m, "
     about += f"at {len(speeds)} speeds from {_speed(speeds[0])} to {_speed(speeds[-1])}"
+    if assessment is not None:
+        verdicts = assessment.verdicts if verdicts is None else verdicts
+        rules = assessment.rules if rules is None else rules
     key = _key_table(key_peaks(found))
     content = _content(case, tables)
     sections = [
         _in_short(key, [*doubts, *_quiet(case)], "", failures(found)),
-        verdicts_section(verdicts, rules),
+        verdicts_section(verdicts, rules, assessment),
         _inputs(case, trains, speeds=speeds, own_train=False),
         _modes(case.deck),
         Section("Results", (*peaks(found), *pictures(found, case.deck), whole(found))),
@@ -221,6 +227,48 @@ def report_of_envelope(
     ]  # fmt: skip
     verdict = "" if verdicts is None else verdicts.verdict
     return Report(title or f"Trains on a bridge: {case.deck.name}", about, tuple(sections), verdict)
+
+
+def report_of_assessment(
+    assessment: Assessment,
+    *,
+    trains: Mapping[str, AnyTrain] | None = None,
+    title: str | None = None,
+) -> Report:
+    """Return the report of a deck and its trains that were judged without a case file.
+
+    Parameters
+    ----------
+    assessment : Assessment
+    trains : mapping of trains, optional
+        By name, to be sketched and listed.
+    title : str, optional
+
+    Returns
+    -------
+    Report
+    """
+    errors.instance("assessment", assessment, Assessment)
+    deck, found = assessment.deck, assessment.envelope
+    speeds = found["speed"].values
+    names = errors.counted([str(name) for name in found["train"].values], 4)
+    about = f"{names} over {deck.name}, {deck.length:g} m, "
+    about += f"at {len(speeds)} speeds from {_speed(speeds[0])} to {_speed(speeds[-1])}"
+    given: list[Any] = [requirements_table(assessment.needs), resolved_deck(deck)]
+    if trains:
+        given += [_trains(trains), *sketches(next(iter(trains.values())), deck)]
+    own = [remark.moved("deck") for remark in deck.remarks]
+    sections = [
+        _in_short(_key_table(key_peaks(found)), own, "", failures(found)),
+        verdicts_section(assessment.verdicts, assessment.rules, assessment),
+        Section("Inputs", tuple(given)),
+        _modes(deck),
+        Section("Results", (*peaks(found), *pictures(found, deck), whole(found))),
+        Section("Limits", (Words("Not in this calculation:"), Notes(tuple(left_out())))),
+        Section("Receipt", (made_in_python(deck, trains), programs())),
+    ]
+    title = title or f"Trains on a bridge: {deck.name}"
+    return Report(title, about, tuple(sections), assessment.verdict)
 
 
 def report_of_study(

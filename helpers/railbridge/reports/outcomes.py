@@ -16,6 +16,8 @@ _REACTIONS = {
     "force_z": ("vertical reaction", 1e-3, "kN"),
     "moment_x": ("reaction moment about x", 1e-3, "kN m"),
 }
+_MOST_CARS = 40
+"""Rows of a table on the page."""
 _MIN_MAX = ("smallest", Column("at", "s"), "largest", Column("at", "s"))
 
 
@@ -27,6 +29,8 @@ def tables_of_summary(s: Mapping[str, Any]) -> Iterator[Table]:
         yield _reactions(s["reactions"])
     if s["wheel_unloading"] is not None:
         yield _wheels(s)
+    if any(car["wheel_unloading"] is not None for car in s["cars"]):
+        yield _cars(s["cars"])
     bodies = [_of_bodies(name, entry) for name, entry in s["car_body"].items() if entry is not None]
     if bodies:
         heads = ["what", "unit", "smallest", ("at", "s"), "where", "largest", ("at", "s"), "where"]
@@ -117,6 +121,29 @@ def _wheel(
     where: str, words: str, unit: str, factor: float, found: Mapping[str, Any]
 ) -> tuple[Any, ...]:
     return where, words, unit, factor * found["value"], found["t"], found["car"], found["wheel"]
+
+
+def _cars(cars: Sequence[Mapping[str, Any]]) -> Table:
+    """Return for each car its wheels and its body, the largest magnitude of each."""
+
+    def most(entry: Mapping[str, Any] | None, factor: float = 1.0) -> float | None:
+        if entry is None:
+            return None
+        return max((factor * e["value"] for k, e in entry.items() if k in ("min", "max")), key=abs)
+
+    heads = ["car", "vehicle", ("vertical wheel force", "kN"), ("lateral wheel force", "kN"),
+             Column("unloading", digits=3), ("vertical acceleration", "m/s²"),
+             ("lateral acceleration", "m/s²")]  # fmt: skip
+    rows = [
+        (
+            c["car"], c["vehicle"], most(c["wheel_force_z"], 1e-3), most(c["wheel_force_y"], 1e-3),
+            most(c["wheel_unloading"]), most(c["acceleration_z"]), most(c["acceleration_y"]),
+        )
+        for c in cars
+    ]  # fmt: skip
+    note = "Of each the value of largest magnitude over the whole record, static part included in "
+    note += "wheel forces; accelerations are those of the body."
+    return Table.of("cars", "Every car", heads, rows, note=note, on_page=len(rows) <= _MOST_CARS)
 
 
 def _of_bodies(name: str, entry: Mapping[str, Any]) -> tuple[Any, ...]:

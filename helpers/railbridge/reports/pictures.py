@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,9 +11,10 @@ import numpy as np
 from .. import plots
 from ..decks import Deck
 from ..errors import InputError
-from ..plots.drawing import FIGURE_WIDTH, PLACE_LABEL, curve, label_axes
+from ..plots import gallery
+from ..plots.drawing import FIGURE_WIDTH, curve, label_axes
 from ..plots.maps import at_place, label_of, scale_of
-from ..plots.style import GREY, RUN_COLOURS, STYLE, literal, style_of
+from ..plots.style import RUN_COLOURS, STYLE, literal
 from ..results import Crossing
 from ..tracks import Track
 from ..trains import AnyTrain
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 __all__ = [
-    "along_the_deck", "drawn", "histories", "modes", "over_one", "over_speeds", "over_two",
-    "sketches", "track_picture", "wheel_and_passes",
+    "drawn", "modes", "of_run", "over_one", "over_speeds", "over_two", "sketches",
+    "track_picture",
 ]  # fmt: skip
 
 _PX = 96.0
@@ -37,6 +38,9 @@ _MOST_POINTS = 4
 _MOST_KINDS = 3
 """Kinds of cars that are sketched."""
 _MODES = 6
+_KINDS = ("envelope", "displacement", "acceleration", "section_forces", "reactions", "wheels",
+          "cars", "convergence")  # fmt: skip
+_WITHOUT_WEIGHT = ("envelope", "displacement", "section_forces", "reactions")
 _TRACK_BESIDE = 40.0
 """m of track before and behind the deck that are drawn."""
 
@@ -117,81 +121,31 @@ def track_picture(track: Track, deck: Deck, lead_in: float) -> Picture:
 # ---- one crossing
 
 
-def histories(run: Crossing, points: Sequence[float]) -> Iterator[Picture]:
-    """Give what happens over time: displacements, accelerations, section forces, reactions."""
-    deck, places = run.deck, [float(x) for x in points][:_MOST_POINTS]
-    z, known = deck.has["z"], not deck.recovery.lacks
-    component, way = ("z", "vertical") if z else ("y", "lateral")
-    at = " and ".join(f"x = {x:g} m" for x in places)
+def of_run(run: Crossing, points: Sequence[float]) -> Iterator[Picture]:
+    """Give what the gallery of a run has for a report: envelopes, histories, passes.
 
-    def over_places(function: Callable[..., Any], **options: Any) -> Callable[[Any], None]:
-        def draw(ax: Axes) -> None:
-            for i, x in enumerate(places):
-                line = (
-                    {} if len(places) == 1 else {"color": RUN_COLOURS[i], "label": f"x = {x:g} m"}
-                )
-                function(run, x, ax=ax, **options, **line)
-
-        return draw
-
-    about = f"{way.capitalize()} displacement of the deck's axis at {at}, without self-weight"
-    yield drawn(about, 2.7, over_places(plots.displacement, component=component))
-    about = f"{way.capitalize()} acceleration of the deck's axis at {at}, "
-    about += f"modes up to {deck.frequencies_hz[-1]:.4g} Hz"
-    yield drawn(about, 2.7, over_places(plots.acceleration, component=component))
-    moment = "moment_vertical" if z else "moment_lateral"
-    inside = known and any(0.0 < x < deck.length for x in places)
-    if inside and deck.recovery.section(moment, 0.4 * deck.length) is not None:
-        about = f"{way.capitalize()} bending moment at {at}, without self-weight"
-        yield drawn(about, 2.7, over_places(plots.section_force, quantity=moment))
-    if known and z and deck.supports:
-        about = "Vertical reactions of the bearing lines, without self-weight"
-        yield drawn(about, 2.7, lambda ax: plots.reactions(run, ax))
-
-
-def wheel_and_passes(run: Crossing) -> Iterator[Picture]:
-    """Give the force of the wheel that is unloaded most, and how the passes converged."""
-    if run.train.kinds():
-        unloading = np.nan_to_num(run.wheel_unloading)
-        wheel = run.train.wheels[int(np.argmax(unloading.max(axis=1)))]
-        about = f"Force of the wheel that is unloaded most, wheel {wheel.number} of car {wheel.car}"
-        about += ", on the deck, up positive"
-        yield drawn(about, 2.7, lambda ax: plots.wheel_force(run, wheel.car, wheel.number, ax=ax))
-    changes = np.array(run.changes)
-    if run.converged is not None and len(changes) > 1 and np.all(np.isfinite(changes)):
-        if not np.any(changes > 0.0):
-            return  # bare axle loads
-        about = "Change of each pass"
-        yield drawn(about, 2.4, lambda ax: plots.convergence(run, ax))
-
-
-def along_the_deck(envelope: Mapping[str, Any]) -> Iterator[Picture]:
-    """Give the smallest and largest value of each quantity along the deck.
+    Of the cars the one with the wheel that is unloaded most.
 
     Parameters
     ----------
-    envelope : mapping
-        As a summary has it.
+    run : Crossing
+    points : sequence of float
+        m.
     """
-    for name, entry in envelope.items():
-        if entry is None:
-            continue
-        style = style_of(name)
-        along = np.array(entry["stations"]["x"])
+    kinds = [kind for kind in _KINDS if kind != "convergence" or _settles(run)]
+    car = 1
+    if run.train.kinds():
+        unloading = np.nan_to_num(run.wheel_unloading).max(axis=1)
+        car = run.train.wheels[int(np.argmax(unloading))].car
+    for piece in gallery.figures_of(run, points[:_MOST_POINTS], [car], kinds):
+        about = piece.about + ", without self-weight" * (piece.kind in _WITHOUT_WEIGHT)
+        yield _picture(about, piece.draw)
 
-        def draw(ax: Axes, entry: Any = entry, style: Any = style, along: Any = along) -> None:
-            curve(ax, "zero", along[[0, -1]], [0.0, 0.0], color=GREY, lw=0.8)
-            for key, dashes, word in (("min", "-", "smallest"), ("max", "--", "largest")):
-                values = style.factor * np.array(entry["stations"][key])
-                line = {"color": style.colour, "ls": dashes, "label": word}
-                curve(ax, key, along, values, **line)
-                dot = {"color": "k", "ls": "", "marker": "o", "ms": 5, "zorder": 3}
-                place = entry[key]["x"], style.factor * entry[key]["value"]
-                curve(ax, f"{key} at", [place[0]], [place[1]], **dot)
-            label_axes(ax, PLACE_LABEL, style.label)
 
-        about = f"Envelope of the {style.words} along the deck, without self-weight"
-        yield drawn(about, 2.3, draw)
+def _settles(run: Crossing) -> bool:
+    """Whether there is more than one change to be seen."""
+    changes = np.array(run.changes)
+    return len(changes) > 1 and bool(np.all(np.isfinite(changes)) and np.any(changes > 0.0))
 
 
 # ---- many crossings

@@ -7,6 +7,7 @@ import json
 import platform
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from dataclasses import fields
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -19,13 +20,16 @@ from ..decks import Deck
 from ..errors import InputError
 from ..results import Crossing
 from ..settings import Settings
+from ..trains import AnyTrain
 from .parts import NOTHING, Table, exact, in_km_h, shown
 
 __all__ = [
-    "choices", "damping_in_words", "input_files", "inputs", "names_only", "programs",
-    "random_tables",
+    "choices", "damping_in_words", "input_files", "inputs", "made_in_python", "names_only",
+    "programs", "random_tables",
 ]  # fmt: skip
 
+_OF_PEOPLE = ("name", "recovery", "remarks", "mode_names", "tracks")
+"""What of a deck is no number, or is worked out from its numbers."""
 _PROGRAMS = ("numpy", "scipy")
 
 
@@ -126,6 +130,16 @@ def inputs(content: Mapping[str, Any]) -> Table:
 
 def _digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
+
+
+def made_in_python(deck: Deck, trains: Mapping[str, AnyTrain] | None = None) -> Table:
+    """Return the digests of a deck and of trains by their numbers, where there is no file."""
+    own = {f.name: getattr(deck, f.name) for f in fields(deck) if f.name not in _OF_PEOPLE}
+    rows = [("deck", deck.name, studies.fingerprint(own))]
+    rows += [("train", name, studies.fingerprint(train)) for name, train in (trains or {}).items()]
+    note = "BLAKE2 of all numbers of what was computed; names do not count."
+    heads = ["input", "name", "digest"]
+    return Table.of("inputs", "Inputs and their digests", heads, rows, note=note)
 
 
 def programs() -> Table:
