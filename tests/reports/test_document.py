@@ -51,6 +51,7 @@ def test_a_page_of_a_crossing_is_harmless_and_whole(quick_report):
     ]  # fmt: skip
     assert len(page.pictures) > 6
     assert page.html.count("<caption>") == sum(t.on_page for t in quick_report.tables)
+    assert "along the deck" in {table.name for table in quick_report.tables if not table.on_page}
     assert len(page.html) < 3e6
 
 

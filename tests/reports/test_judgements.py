@@ -1,5 +1,6 @@
 """Verdicts in a report: worded and coloured, with clause, edition and how well it is known."""
 
+import pytest
 from pageparts import Page
 
 from railbridge import codes
@@ -22,20 +23,34 @@ def page(section):
 
 def test_all_that_is_known_of_a_verdict_stands_there():
     section = verdicts_section(VERDICTS)
-    table = section.parts[0]
+    table = section.parts[1]
     heads = [column.head for column in table.columns]
     rows = [dict(zip(heads, row, strict=True)) for row in table.rows]
     assert rows[0] == {
         "what": VERDICTS.rows[0].clause.title, "verdict": "met",
         "value": 2.1, "sense": "at most", "limit": 3.5, "unit": "m/s²",
-        "utilisation": 0.6, "where": "18 m", "when": "ICE2 at 62.5 m/s", "remark": None,
-        "clause": VERDICTS.rows[0].clause.name,
+        "utilisation": pytest.approx(0.6), "where": "x = 18 m", "when": "ICE2 at 62.5 m/s",
+        "remark": None,
+        "clause": VERDICTS.rows[0].clause.name, "edition": VERDICTS.rows[0].clause.edition,
+        "how well it is known": VERDICTS.rows[0].source,
     }  # fmt: skip
-    assert rows[1]["verdict"] == "not met" and rows[1]["when"] == "3.25 s"
+    assert rows[1]["verdict"] == "not met" and rows[1]["when"] == "t = 3.25 s"
     assert rows[2]["verdict"] == "cannot decide" and rows[2]["value"] is None
     assert rows[2]["remark"] == "the deck has no twist; the value is not known"
     assert (rows[3]["value"], rows[3]["limit"], rows[3]["unit"]) == (10.0, 60.0, "mm")
     assert (rows[4]["limit"], rows[4]["unit"]) == (6000.0, "m")
+
+
+def test_on_the_page_numbers_have_their_units():
+    rows = verdicts_section(VERDICTS).parts[0].rows
+    clause = VERDICTS.rows[0].clause
+    assert rows[0] == (
+        f"{clause.title} ({clause.name})", "met", "2.1 m/s²", "at most 3.5 m/s²",
+        pytest.approx(0.6),
+        "x = 18 m; ICE2 at 62.5 m/s", None,
+    )  # fmt: skip
+    assert rows[3][2:4] == ("10 mm", "at most 60 mm") and rows[4][3] == "at least 6000 m"
+    assert rows[2][2] is None and rows[2][5] is None
 
 
 def test_verdicts_are_words_and_colours():
@@ -49,7 +64,7 @@ def test_verdicts_are_words_and_colours():
 
 
 def test_each_clause_stands_once_with_edition_and_grade():
-    clauses = verdicts_section(VERDICTS).parts[1]
+    clauses = verdicts_section(VERDICTS).parts[2]
     assert len(clauses.rows) == 4
     first = VERDICTS.rows[0].clause
     assert clauses.rows[0] == (first.name, first.title, first.edition, first.validity, first.source)
@@ -59,7 +74,7 @@ def test_the_rule_of_a_value_is_a_clause_too():
     value = codes.Answer(2.0, codes.kept_modes([1.0, 2.0, 3.0]).limit.clause)
     verdict = codes.Verdict(codes.acceleration_limit("ballasted").clause, 3.5, 2.0,
                             value_clause=value.clause)  # fmt: skip
-    clauses = verdicts_section(Verdicts([verdict])).parts[1]
+    clauses = verdicts_section(Verdicts([verdict])).parts[2]
     assert [row[1] for row in clauses.rows] == [verdict.clause.title, value.clause.title]
 
 

@@ -62,26 +62,24 @@ def test_names_of_trains_over_speeds_are_letters(monkeypatch):
     assert len(named) >= 3 and not any(formula for _, formula in named)
 
 
-def test_histories_of_a_run(quick):
+def test_pictures_of_a_run_are_those_of_the_gallery(quick):
     case, run = quick
-    titles = [picture.title for picture in pictures.histories(run, [3.0, 6.0])]
-    assert len(titles) == 4 and "x = 3 m and x = 6 m" in titles[0]
-    titles = [picture.title for picture in pictures.histories(run, [0.0])]
-    assert not [title for title in titles if "moment" in title]
-    modes_only = replace(case.deck, recovery=None)
+    titles = [picture.title for picture in pictures.of_run(run, [3.0, 6.0])]
+    assert "Smallest and largest values along the deck, without self-weight" in titles
+    assert titles[0] == "Displacement of the deck at x = 3 m, without self-weight"
+    assert titles[-1] == "How the iteration settles" and "Wheel forces on the deck, car 1" in titles
+    again = list(pictures.of_run(run, [3.0, 6.0]))
+    assert list(pictures.of_run(run, [3.0, 6.0])) == again
+    assert not [p for p in again if "Matplotlib" in p.svg or "<dc:date>" in p.svg]
+    most = [p.title for p in pictures.of_run(run, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0])]
+    assert sum("Displacement" in title for title in most) == 4
+
+
+def test_constant_loads_on_a_deck_of_modes_have_fewer_pictures(quick):
+    modes_only = replace(quick[0].deck, recovery=None)
     bare = rb.cross(rb.AxleTrain([0.0], [1e5]), modes_only, rb.Track(), speed=40.0)
-    assert len(list(pictures.histories(bare, [6.0]))) == 2
-    assert list(pictures.wheel_and_passes(bare)) == []
-    assert len(list(pictures.wheel_and_passes(run))) == 2
-
-
-def test_the_envelope_along_the_deck_is_one_picture_a_quantity(quick):
-    case, run = quick
-    found = list(pictures.along_the_deck(case.summary(run)["envelope"]))
-    assert [p.title.split(" along")[0] for p in found] == [
-        "Envelope of the vertical displacement", "Envelope of the vertical acceleration",
-        "Envelope of the vertical bending moment",
-    ]  # fmt: skip
+    titles = [picture.title for picture in pictures.of_run(bare, [6.0])]
+    assert [title.split(" ")[0] for title in titles] == ["Displacement", "Acceleration", "Smallest"]
 
 
 def test_one_thing_that_varies_is_a_line_and_words_stand_below_it():

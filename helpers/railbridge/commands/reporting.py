@@ -160,14 +160,9 @@ def _over_speeds(given: argparse.Namespace, loaded: Case | None) -> int:
             plan.like, plan.trains, found.speed.values, workers=given.workers, progress=progress
         )
     made = reports.report_of_envelope(
-        plan.like,
-        plan.trains,
-        found,
-        assessment=judged,
-        tables=plan.tables,
-        doubts=plan.doubts,
+        plan.like, plan.trains, found, tables=plan.tables, assessment=judged, doubts=plan.doubts,
         title=given.title,
-    )
+    )  # fmt: skip
     _write(given, made)
     return studying.FAILED if any(found.message.values.ravel().tolist()) else 0
 

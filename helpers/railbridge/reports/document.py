@@ -40,8 +40,9 @@ class Report:
 
     @property
     def tables(self) -> list[Table]:
-        """All tables, those of the workbook alone, too."""
-        return [p for s in self.sections for p in s.parts if isinstance(p, Table)]
+        """All tables of the workbook; those of the page alone are the same in other words."""
+        tables = [p for s in self.sections for p in s.parts if isinstance(p, Table)]
+        return [table for table in tables if table.in_workbook]
 
     def html(self, date: datetime.date | None = None) -> str:
         """Return the page.

@@ -11,10 +11,9 @@ from ..cases.tabletypes import meanings
 from ..checks import Assessment, Requirements, assess, assess_run
 from ..codes import Answer, Verdict, Verdicts
 from ..codes.clauses import GRADES
-from ..codes.verdicts import CANNOT_DECIDE
 from ..results import Crossing
 from ..trains import AnyTrain
-from .parts import Column, Notes, Section, Table, Words, exact, in_km_h, shown
+from .parts import Column, Section, Table, Words, exact, in_km_h, shown
 
 __all__ = ["judged_over_speeds", "judged_run", "requirements_table", "verdicts_section"]
 
@@ -76,16 +75,13 @@ def verdicts_section(
     assessment : Assessment, optional
         For what each train comes to.
     """
-    parts: list[Words | Notes | Table] = []
+    parts: list[Words | Table] = []
     if verdicts is None:
         parts.append(Words(_HOW_TO_ASK, "note"))
     elif not len(verdicts):
         parts.append(Words("No limit applies to what was computed.", "note"))
     else:
-        parts += [_table(verdicts), _sources(verdicts)]
-        undecided = [_undecided(v) for v in verdicts if v.verdict == CANNOT_DECIDE]
-        if undecided:
-            parts += [Words("Not decided:"), Notes(tuple(undecided))]
+        parts += [_read(verdicts), _numbers(verdicts), _sources(verdicts)]
     if assessment is not None and len(assessment.of_trains) > 1:
         parts.append(_of_trains(assessment))
     if rules:
@@ -93,40 +89,58 @@ def verdicts_section(
     return Section("Verdicts", tuple(parts))
 
 
-def _table(verdicts: Verdicts) -> Table:
-    heads = [
-        "what", Column("verdict", verdicts=True), Column("value", digits=3), "sense",
-        Column("limit", digits=3), "unit", Column("utilisation", digits=3), "where", "when",
-        "remark", "clause",
-    ]  # fmt: skip
-    rows = [_row(v) for v in verdicts]
+def _read(verdicts: Verdicts) -> Table:
+    """Return verdicts as they are read: numbers with their units, places and times in a cell."""
+    heads = ["what", Column("verdict", verdicts=True), "value", "limit",
+             Column("utilisation", digits=3), "where, when", "remark"]  # fmt: skip
+    rows = []
+    for v in verdicts:
+        unit, factor = _unit(v)
+        value, limit = (_amount(n, factor, unit) for n in (v.value, v.limit))
+        limit = None if limit is None else f"{v.clause.sense} {limit}"
+        where = [text for text in (_placed(v.where, "m"), _placed(v.when, "s")) if text]
+        rows.append((
+            f"{v.clause.title} ({v.clause.name})", v.verdict, value, limit, v.utilisation,
+            "; ".join(where) or None, v.reason or None,
+        ))  # fmt: skip
     note = (
         "Utilisation is the share of what is allowed that is used: above 1 the limit is not met. "
         "A limit that is just reached is met."
     )
-    return Table.of("verdicts", "Verdicts", heads, rows, note=note)
+    return Table.of("verdicts", "Verdicts", heads, rows, note=note, in_workbook=False)
 
 
-def _row(v: Verdict) -> tuple:
-    unit, factor = _UNITS.get(v.clause.unit, (v.clause.unit, 1.0))
+def _amount(number: float | None, factor: float, unit: str) -> str | None:
+    return None if number is None else f"{shown(factor * number, 3)} {unit}".strip()
+
+
+def _numbers(verdicts: Verdicts) -> Table:
+    """Return verdicts for a workbook, a thing a cell."""
+    heads = ["what", "verdict", "value", "sense", "limit", "unit", "utilisation", "where", "when",
+             "remark", "clause", "edition", "how well it is known"]  # fmt: skip
+    rows = []
+    for v in verdicts:
+        unit, factor = _unit(v)
+        value, limit = (None if n is None else factor * n for n in (v.value, v.limit))
+        rows.append((
+            v.clause.title, v.verdict, value, v.clause.sense, limit, unit or "-", v.utilisation,
+            _placed(v.where, "m"), _placed(v.when, "s"), v.reason or None, v.clause.name,
+            v.clause.edition, v.source,
+        ))  # fmt: skip
+    return Table.of("verdicts", "Verdicts", heads, rows, on_page=False)
+
+
+def _unit(v: Verdict) -> tuple[str, float]:
+    """Return in which unit a limit and its value are shown, and the factor to it from SI."""
     if v.clause.unit == "m" and v.limit is not None and v.limit >= _RADII:
-        unit, factor = "m", 1.0
-    value = None if v.value is None else factor * v.value
-    limit = None if v.limit is None else factor * v.limit
-    return (
-        v.clause.title, v.verdict, value, v.clause.sense, limit, unit or "-", v.utilisation,
-        _placed(v.where, "m"), _placed(v.when, "s"), v.reason or None, v.clause.name,
-    )  # fmt: skip
+        return "m", 1.0
+    return _UNITS.get(v.clause.unit, (v.clause.unit, 1.0))
 
 
 def _placed(given: float | str | None, unit: str) -> str | None:
     if given is None or isinstance(given, str):
         return given
-    return f"{shown(float(given))} {unit}"
-
-
-def _undecided(v: Verdict) -> str:
-    return f"{v.clause.title} ({v.clause.name}): {v.reason}"
+    return f"{'x = ' * (unit == 'm')}{'t = ' * (unit == 's')}{shown(float(given))} {unit}"
 
 
 def _sources(verdicts: Verdicts) -> Table:

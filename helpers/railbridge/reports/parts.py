@@ -130,8 +130,8 @@ class Table:
         Numbers, texts, booleans, or None.
     note : str
         Below it.
-    on_page : bool
-        Whether it stands on the page, too, not in the workbook alone.
+    on_page, in_workbook : bool
+        Where it stands; both if nothing is said.
     """
 
     name: str
@@ -140,6 +140,7 @@ class Table:
     rows: tuple[tuple[Any, ...], ...]
     note: str = ""
     on_page: bool = True
+    in_workbook: bool = True
     kind = "table"
 
     def __post_init__(self) -> None:
