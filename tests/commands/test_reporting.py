@@ -71,9 +71,7 @@ def test_a_case_with_checks_is_judged(here, capsys):
     case = rb.case("case.toml")
     verdict = rb.assess_run(case.compute(), case.requirements).verdict
     assert code == 0
-    assert out == [
-        f"Train on a bridge: deck: verdict: {verdict}; written to out.html and n.xlsx"
-    ]
+    assert out == [f"Train on a bridge: deck: verdict: {verdict}; written to out.html and n.xlsx"]
     assert f"Verdict: {verdict}" in page() and "deck acceleration" in page()
     assert "No limits" not in page()
 

@@ -10,7 +10,6 @@ from ..cases.definition import Case
 from ..cases.tabletypes import meanings
 from ..checks import Assessment, Requirements, assess, assess_run
 from ..codes import Answer, Verdict, Verdicts
-from ..codes.clauses import GRADES
 from ..results import Crossing
 from ..trains import AnyTrain
 from .parts import Column, Section, Table, Words, exact, in_km_h, shown
@@ -151,8 +150,8 @@ def _sources(verdicts: Verdicts) -> Table:
             if clause is not None:
                 clauses.setdefault(clause, None)
     heads = ["clause", "about", "edition", "valid", "how well it is known"]
-    rows = [(c.name, c.title, c.edition, c.validity, c.source) for c in clauses]
-    note = f"What is known {GRADES['memory']} must be looked up in the code before it is relied on."
+    rows = [(c.name, c.title, c.edition, c.validity.replace("`", ""), c.source) for c in clauses]
+    note = "What rests on memory must be looked up in the code before it is relied on."
     title = "Clauses, editions and sources"
     return Table.of("clauses", title, heads, rows, note=note)
 

@@ -22,7 +22,7 @@ DIGITS = 4
 """Significant digits of a result."""
 INPUT_DIGITS = 10
 """The same of what was given, which a checker compares with a drawing."""
-_SHORT = 14
+_SHORT = 18
 """Letters of a text that is not broken."""
 _LONGEST_WORD = 36
 """Letters of a word that may be broken."""
