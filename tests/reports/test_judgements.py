@@ -1,12 +1,18 @@
 """Verdicts in a report: worded and coloured, with clause, edition and how well it is known."""
 
 import pytest
-from pageparts import Page
+from pageparts import QUICK, Page
 
+import railbridge as rb
 from railbridge import codes
 from railbridge.codes import Verdicts, judge
 from railbridge.reports import Report
-from railbridge.reports.judgements import verdicts_section
+from railbridge.reports.judgements import (
+    judged_over_speeds,
+    judged_run,
+    requirements_table,
+    verdicts_section,
+)
 
 VERDICTS = Verdicts([
     judge(2.1, codes.acceleration_limit("ballasted"), where=18.0, when="ICE2 at 62.5 m/s"),
@@ -100,3 +106,41 @@ def test_without_limits_it_says_how_to_ask():
     assert "No limits" in words.text and "[checks]" in words.text
     (words,) = verdicts_section(Verdicts()).parts
     assert "No limit applies" in words.text
+
+
+@pytest.fixture(scope="module")
+def asking():
+    return rb.case(QUICK, {"checks": {"line_speed": 40.0}, "track": None})
+
+
+def test_a_case_without_checks_is_not_judged(quick):
+    case, run = quick
+    assert judged_run(case, run) is None
+    assert judged_over_speeds(case, {"t": case.train}, [40.0]) is None
+
+
+def test_a_run_is_judged_by_what_its_case_asks_for(asking):
+    run = asking.compute()
+    assert judged_run(asking, run) == rb.assess_run(run, asking.requirements)
+
+
+def test_trains_are_judged_on_the_track_and_with_the_choices_of_the_case():
+    case = rb.case(QUICK, {"checks": {"line_speed": 40.0}})
+    trains = {"own": case.train, "ICE2": rb.train("ICE2")}
+    found = judged_over_speeds(case, trains, [40.0])
+    own = {k: v for k, v in case.options.items() if k != "speed"}
+    known = rb.assess(case.deck, trains, [40.0], case.requirements, track=case.track, **own)
+    assert found.verdicts == known.verdicts
+    section = verdicts_section(found.verdicts, found.rules, found)
+    table = next(p for p in section.parts if getattr(p, "name", "") == "verdicts of trains")
+    assert {row[0] for row in table.rows} == {"own", "ICE2"}
+    of_own = {row[1]: row for row in table.rows if row[0] == "own"}
+    frame = known.per_train().loc["own"]
+    assert of_own["deck acceleration"][3] == pytest.approx(frame.loc["deck acceleration", "value"])
+    assert of_own["deck acceleration"][6:] == (40.0, pytest.approx(144.0))
+
+
+def test_what_the_codes_were_told_has_meanings(asking):
+    rows = {row[0]: row[1:] for row in requirements_table(asking.requirements).rows}
+    assert rows["line_speed"][0] == "40" and rows["line_speed"][1].startswith("Largest speed")
+    assert rows["kind"][0] == "-" and all(about for _, about in rows.values())

@@ -222,3 +222,21 @@ def test_wrong_things_are_refused(quick):
         rb.reports.report_of_run("paper")
     with pytest.raises(InputError, match="run.*must be a Crossing"):
         rb.reports.report_of_run(quick[0], "run")
+
+
+def test_an_assessment_without_a_case_file(tmp_path):
+    deck, trains = rb.deck("viaduct36"), {BAD: rb.train("ICE2"), "b": rb.train("HSLM-A2")}
+    needs = rb.Requirements(line_speed=50.0)
+    found = rb.assess(deck, trains, [50.0, 60.0], needs)
+    made = rb.reports.report(found, tmp_path / "page.html", trains=trains, date=DAY)
+    page = Page((tmp_path / "page.html").read_text(encoding="utf-8"))
+    assert_harmless(page)
+    assert made.verdict == found.verdict and f"Verdict: {found.verdict}" in page.text
+    assert BAD in page.text and "Largest speed of the line" in page.text
+    again = rb.reports.report_of_assessment(
+        rb.assess(deck, trains, [50.0, 60.0], needs), trains=trains
+    )
+    assert again.html(DAY) == page.html
+    other = rb.reports.report_of_assessment(found, trains={**trains, "b": rb.train("HSLM-A3")})
+    digests = [next(t for t in m.tables if t.name == "inputs").rows for m in (made, other)]
+    assert [a == b for a, b in zip(*digests, strict=True)] == [True, True, False]

@@ -98,3 +98,19 @@ def test_key_results_are_the_largest(found):
     )  # fmt: skip
     assert rows["largest wheel unloading"][1] == "-"
     assert rows["largest vertical acceleration of a car body"][2].startswith("car 1, ")
+
+
+def test_round_off_is_no_result():
+    # On the axis of the deck and level rails: nothing pushes sideways.
+    run = {"speed": 40.0, "interaction": "rigid", "lead_in": 0.0, "tail": 0.1}
+    train = {"vehicle": "xia2000", "cars": 1}
+    case = rb.case({"deck": {"file": "viaduct36"}, "train": train, "run": run})
+    summary = case.summary(case.compute())
+    ends = summary["points"][0]["displacement_y"]
+    assert 0.0 < max(abs(ends[key]["value"]) for key in ("min", "max")) < 1e-12
+    tables = {table.name: table for table in tables_of_summary(summary)}
+    row = row_of(tables["extremes"], 18.0, "lateral displacement", "mm")
+    assert (row[3], row[5], *row[7:]) == (0.0, 0.0, None, None)
+    assert not [row for row in tables["reactions"].rows if row[1] == "lateral reaction"]
+    assert row_of(tables["envelope"], "lateral bending moment", "kN m")[2] == 0.0
+    assert [row[3] for row in tables["cars"].rows] == [0.0]

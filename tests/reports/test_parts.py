@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from railbridge.errors import InputError
-from railbridge.reports.parts import Column, Table, exact, in_km_h, of_quantity, shown
+from railbridge.reports.parts import Column, Table, exact, in_km_h, of_quantity, shown, sized
 
 
 @pytest.mark.parametrize(
@@ -66,3 +66,10 @@ def test_a_column_is_set_as_its_cells_are():
 def test_rows_have_as_many_cells_as_there_are_columns():
     with pytest.raises(InputError, match="has 1 cells in a row, must have 2"):
         Table.of("t", "T", ["a", "b"], [(1, 2), (1,)])
+
+
+@pytest.mark.parametrize(
+    ("value", "kept"), [(1e-15, 0.0), (-9.9e-10, 0.0), (-1.1e-9, -1.1e-9), (2, 2)]
+)
+def test_round_off_is_nothing(value, kept):
+    assert sized(value) == kept

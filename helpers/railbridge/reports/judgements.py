@@ -12,7 +12,7 @@ from ..checks import Assessment, Requirements, assess, assess_run
 from ..codes import Answer, Verdict, Verdicts
 from ..results import Crossing
 from ..trains import AnyTrain
-from .parts import Column, Section, Table, Words, exact, in_km_h, shown
+from .parts import Column, Section, Table, Words, exact, in_km_h, shown, sized
 
 __all__ = ["judged_over_speeds", "judged_run", "requirements_table", "verdicts_section"]
 
@@ -110,7 +110,7 @@ def _read(verdicts: Verdicts) -> Table:
 
 
 def _amount(number: float | None, factor: float, unit: str) -> str | None:
-    return None if number is None else f"{shown(factor * number, 3)} {unit}".strip()
+    return None if number is None else f"{shown(sized(factor * number), 3)} {unit}".strip()
 
 
 def _numbers(verdicts: Verdicts) -> Table:
@@ -120,7 +120,7 @@ def _numbers(verdicts: Verdicts) -> Table:
     rows = []
     for v in verdicts:
         unit, factor = _unit(v)
-        value, limit = (None if n is None else factor * n for n in (v.value, v.limit))
+        value, limit = (None if n is None else sized(factor * n) for n in (v.value, v.limit))
         rows.append((
             v.clause.title, v.verdict, value, v.clause.sense, limit, unit or "-", v.utilisation,
             _placed(v.where, "m"), _placed(v.when, "s"), v.reason or None, v.clause.name,
@@ -165,7 +165,8 @@ def _of_trains(assessment: Assessment) -> Table:
         unit, factor = _UNITS.get(row["unit"], (row["unit"], 1.0))
         speed = float(row["speed"])
         utilisation = None if row["utilisation"] is None else float(row["utilisation"])
-        rows.append((str(train), what, row["verdict"], factor * float(row["value"]), unit or "-",
+        value = sized(factor * float(row["value"]))
+        rows.append((str(train), what, row["verdict"], value, unit or "-",
                      utilisation, speed, in_km_h(speed)))  # fmt: skip
     return Table.of("verdicts of trains", "What each train comes to", heads, rows)
 

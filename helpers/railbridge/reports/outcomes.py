@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ..cases.summary import QUANTITIES
-from .parts import Column, Table, of_quantity
+from .parts import Column, Table, of_quantity, sized
 
 __all__ = ["key_results", "tables_of_summary"]
 
@@ -58,9 +58,10 @@ def _at_points(points: Sequence[Mapping[str, Any]]) -> Table:
 def _entry(entry: Mapping[str, Any], words: str, factor: float, unit: str) -> tuple[Any, ...]:
     """Return name, unit, both extremes with times, static value and dynamic factor."""
     low, high, static = entry["min"], entry["max"], entry["static"]
-    has_static = static not in (None, 0.0)
+    values = [sized(factor * each["value"]) for each in (low, high)]
+    has_static = any(values) and static is not None and sized(factor * static) != 0.0
     return (
-        words, unit, factor * low["value"], low["t"], factor * high["value"], high["t"],
+        words, unit, values[0], low["t"], values[1], high["t"],
         factor * static if has_static else None, entry["dynamic_factor"] if has_static else None,
     )  # fmt: skip
 
@@ -72,12 +73,13 @@ def _along(envelope: Mapping[str, Any]) -> Iterator[Table]:
             continue
         words, factor, unit = of_quantity(name)
         low, high = entry["min"], entry["max"]
-        rows.append((words, unit, factor * low["value"], low["x"], low["t"],
-                     factor * high["value"], high["x"], high["t"]))  # fmt: skip
+        rows.append((words, unit, sized(factor * low["value"]), low["x"], low["t"],
+                     sized(factor * high["value"]), high["x"], high["t"]))  # fmt: skip
         stations.setdefault(("x", "m"), entry["stations"]["x"])
         for key, word in (("min", "smallest"), ("max", "largest")):
             values = entry["stations"][key]
-            stations[f"{word} {words}", unit] = [None if v is None else factor * v for v in values]
+            shown = [None if v is None else sized(factor * v) for v in values]
+            stations[f"{word} {words}", unit] = shown
     if not rows:
         return
     heads = ["what", "unit", "smallest", Column("x", "m"), ("at", "s"), "largest",
@@ -94,8 +96,9 @@ def _reactions(reactions: Sequence[Mapping[str, Any]]) -> Table:
     for line in reactions:
         for name, how in _REACTIONS.items():
             entry = line.get(name)
-            if entry is not None and (entry["min"]["value"] or entry["max"]["value"]):
-                rows.append((line["x"], *_entry(entry, *how)))
+            row = None if entry is None else _entry(entry, *how)
+            if row is not None and (row[2] or row[4]):
+                rows.append((line["x"], *row))
     note = "Forces on the deck, up positive; without the deck's self-weight."
     return Table.of("reactions", "Reactions of the bearing lines", heads, rows, note=note)
 
@@ -129,7 +132,8 @@ def _cars(cars: Sequence[Mapping[str, Any]]) -> Table:
     def most(entry: Mapping[str, Any] | None, factor: float = 1.0) -> float | None:
         if entry is None:
             return None
-        return max((factor * e["value"] for k, e in entry.items() if k in ("min", "max")), key=abs)
+        ends = [entry[key]["value"] for key in ("min", "max") if key in entry]
+        return max((sized(factor * value) for value in ends), key=abs)
 
     heads = ["car", "vehicle", ("vertical wheel force", "kN"), ("lateral wheel force", "kN"),
              Column("unloading", digits=3), ("vertical acceleration", "m/s²"),
@@ -166,7 +170,7 @@ def _self_weight(s: Mapping[str, Any]) -> Iterator[Table]:
         words, factor, unit = of_quantity(name)
         for point, value in zip(s["points"], own[name], strict=True):
             if value is not None:
-                rows.append((point["x"], words, unit, factor * value))
+                rows.append((point["x"], words, unit, sized(factor * value)))
     for line, value in zip(s["reactions"], own["force_z"], strict=False):
         if value is not None:
             rows.append((line["x"], *_REACTIONS["force_z"][::2], 1e-3 * value))
@@ -196,7 +200,7 @@ def key_results(s: Mapping[str, Any]) -> list[tuple[Any, ...]]:
         words, factor, unit = of_quantity(name)
         worst = max((entry["min"], entry["max"]), key=lambda e: abs(e["value"]))
         where = f"x = {worst['x']:.4g} m"
-        rows.append((f"largest {words}", factor * worst["value"], unit, where, worst["t"]))
+        rows.append((f"largest {words}", sized(factor * worst["value"]), unit, where, worst["t"]))
     for entry, words in ((s["wheel_unloading"], "largest wheel unloading"),):
         if entry is not None and entry["max"] is not None:
             own = entry["max"]

@@ -15,7 +15,7 @@ from ..units import UNITS
 
 __all__ = [
     "NOTHING", "Column", "Notes", "Picture", "Section", "Table", "Words", "exact", "in_km_h",
-    "of_quantity", "shown",
+    "of_quantity", "shown", "sized",
 ]  # fmt: skip
 
 DIGITS = 4
@@ -28,6 +28,8 @@ _LONGEST_WORD = 36
 """Letters of a word that may be broken."""
 NOTHING = "-"
 """Stands where there is no number."""
+_ROUND_OFF = 1e-9
+"""mm, kN, m/s2, ...: less is no motion and no force, and another machine has other digits."""
 _PLAIN = (1e-3, 1e7)
 """Between them numbers are written without a power of ten."""
 
@@ -78,6 +80,11 @@ def exact(value: Any) -> str:
 def in_km_h(speed: float) -> float:
     """Return a speed (m/s) in km/h."""
     return float(speed / UNITS["speed"]["km/h"])
+
+
+def sized(value: float) -> float:
+    """Return a number in the unit in which it is shown; 0 for what can only be round-off."""
+    return 0.0 if abs(value) < _ROUND_OFF else value
 
 
 def of_quantity(name: str) -> tuple[str, float, str]:
