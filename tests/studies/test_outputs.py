@@ -21,8 +21,10 @@ def test_peaks_are_those_of_the_histories(run):
     for i, output in enumerate(outputs):
         if output.quantity.startswith("acceleration"):
             history = run.acceleration(output.x)
-        elif output.quantity.startswith(("displacement", "rotation")):
+        elif output.quantity.startswith("displacement"):
             history = run.displacement(output.x)
+        elif output.quantity.startswith("rotation"):
+            history = run.rotations(output.x)
         else:
             history = run.section_forces(output.x)
         value, time = history.extreme(output.quantity)

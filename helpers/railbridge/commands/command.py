@@ -366,7 +366,7 @@ def _new(given: argparse.Namespace) -> int:
         raise InputError("file", given.file, "must end in .toml")
     try:
         make = pages.study_starter if given.study else pages.starter
-        _write_new(path, make(path.name))
+        staging.new_file(path, make(path.name))
     except FileExistsError:
         raise InputError(
             "file", given.file, "exists already and is left alone", "Choose another name"
@@ -377,17 +377,6 @@ def _new(given: argparse.Namespace) -> int:
     way = "sweep" if given.study else "run"
     tell(f"{given.file} written; run it with: railbridge {way} {given.file} --out results")
     return 0
-
-
-def _write_new(path: Path, text: str) -> None:
-    """Write a file that must not exist yet; whole, or it does not exist afterwards either."""
-    with path.open("x", encoding="utf-8") as file:
-        try:
-            file.write(text)
-            file.flush()
-        except BaseException:
-            path.unlink()
-            raise
 
 
 def _list(given: argparse.Namespace) -> int:
@@ -458,7 +447,7 @@ def _mark(given: argparse.Namespace) -> int:
     progress = Progress(quiet=False)
     rows = marking.marked(handed_in, jobs, progress=progress)
     progress.end()
-    _write_new(Path(given.out), marking.table(rows, asked))
+    staging.new_file(Path(given.out), marking.table(rows, asked))
     for row in rows:
         for remark in row.remarks:
             tell(f"{row.student}: {remark}")

@@ -11,6 +11,7 @@ drawing from `plots`.
     panel.close()                              # frees it, as running its cell again does
 """
 
+from .bridgeform import BridgeForm
 from .control import Control
 from .notebook_panels import (
     deck_modes,
@@ -26,6 +27,7 @@ from .randomtrack import random_track
 from .wheels import wheels_with_mass
 
 __all__ = [
-    "FALLBACK", "Control", "Panel", "deck_modes", "deck_response", "fixed_point", "irregularities",
-    "map_and_crossing", "overview", "random_track", "rigid_forces", "wheels_with_mass",
+    "BridgeForm", "FALLBACK", "Control", "Panel", "deck_modes", "deck_response", "fixed_point",
+    "irregularities", "map_and_crossing", "overview", "random_track", "rigid_forces",
+    "wheels_with_mass",
 ]  # fmt: skip

@@ -30,7 +30,7 @@ from ..results import Crossing
 from ..settings import default_time_step
 from .code import case_lines
 from .control import Control, change_at, for_case
-from .looks import class_of, looks
+from .looks import boxed, class_of, looks, refusal
 from .standing import stands_here
 
 __all__ = ["DPI", "FALLBACK", "Panel"]
@@ -447,9 +447,7 @@ class Panel:
 
     def _show_error(self, error: Exception) -> None:
         self.error = error
-        words = "(The picture shows the last possible case.)"
-        words = f"<b>Not possible:</b> {escape(str(error))} {words}"
-        self.trouble.value = f'<div role="alert" style="{_ALERT}">{words}</div>'
+        self.trouble.value = refusal(error, "(The picture shows the last possible case.)")
         if self._shows_rough:  # nothing follows any more
             self._write_summary(False, f"Time step up to {_ms(ROUGH_STEP)}.")
 
@@ -479,16 +477,6 @@ class Panel:
         return {**bundle, "text/plain": FALLBACK}
 
 
-# Readable on light and dark pages.
-_ALERT = (
-    "line-height:1.35;background:#fdecea;color:#7a0c17;"
-    "border-left:4px solid #b00020;padding:4px 10px"
-)
-
-
-_NOTE = _ALERT.replace("#fdecea;color:#7a0c17", "#fff4d6;color:#5c4300").replace(
-    "#b00020", "#b07d00"
-)
 REMARKS_SHOWN = 3
 
 
@@ -506,7 +494,7 @@ def _as_html(remarks: Sequence[Remark]) -> str:
     more = len(lines) - REMARKS_SHOWN
     rest = [f"And {more} more; see the remarks of the summary."] if more > 0 else []
     words = "<br>".join(lines[:REMARKS_SHOWN] + rest)
-    return f'<div role="note" style="{_NOTE}">{words}</div>'
+    return boxed(words, "note")
 
 
 def _with_parts(roots: Sequence[widgets.Widget]) -> list[widgets.Widget]:

@@ -95,6 +95,8 @@ QUANTITY_STYLES = {
         "displacement_y": ("lateral displacement", "mm", 1e3, _MOTION, _LATERAL),
         "displacement_z": ("vertical displacement", "mm", 1e3, _MOTION, _VERTICAL),
         "rotation_x": ("twist", "mrad", 1e3, _MOTION, _ROLL),
+        "rotation_y": ("rotation about y", "mrad", 1e3, _MOTION, _VERTICAL),
+        "rotation_z": ("rotation about z", "mrad", 1e3, _MOTION, _LATERAL),
         "velocity_y": ("lateral velocity", "mm/s", 1e3, _SPEED, _LATERAL),
         "velocity_z": ("vertical velocity", "mm/s", 1e3, _SPEED, _VERTICAL),
         "velocity_roll": ("twist velocity", "mrad/s", 1e3, _SPEED, _ROLL),
