@@ -16,7 +16,7 @@ PUBLISHED = {
     "korea40": (40.0, 6.9333e11, 33e3, 0.01, 4.5, "measured"),
 }
 GRADES = r"\[(two|one|memory|derived)\]"
-SWAY = 18.7  # m between the bogies of a KTX
+RHYTHM = 18.7  # m between the bogies of a KTX
 QUANTITIES = ("displacement_z", "acceleration_z")
 
 
@@ -31,18 +31,9 @@ def changed(name, stiffness=1.0, mass=1.0, **more):
     return rb.deck_from_table(name, table)
 
 
-def ktx(load=170e3):
-    """Power car, 18 articulated coaches, power car: the spacings of the AVE S100, longer."""
-    power = np.array([0.0, 3.0, 14.0, 17.0])
-    bogies = 21.78 + SWAY * np.arange(19)
-    places = np.sort(np.concatenate([power, bogies - 1.5, bogies + 1.5]))
-    places = np.concatenate([places, places[-1] + 3.28 + power])
-    return rb.AxleTrain(tuple(places), (load,) * len(places))
-
-
 def largest(deck, speeds):
     """Sag, mm, its static value, mm, and acceleration, m/s2, over speeds in km/h."""
-    found = rb.speed_envelope(deck, {"KTX": ktx()}, np.divide(speeds, 3.6), quantities=QUANTITIES)
+    found = rb.speed_envelope(deck, "KTX", np.divide(speeds, 3.6), quantities=QUANTITIES)
     sag = 1e3 * np.ravel(found.displacement_z)
     return sag, 1e3 * np.ravel(found.displacement_z_static), np.ravel(found.acceleration_z)
 
@@ -89,11 +80,12 @@ def test_frequencies_are_those_of_bridges_and_all_that_count_are_kept(name):
     assert rb.codes.kept_modes(deck.frequencies_hz).complete
 
 
-def test_a_ktx_is_as_long_as_published():
-    train = ktx()
-    assert len(train.axles) == 46
-    assert train.axles[-1] == pytest.approx(380.15, abs=0.02)
-    assert np.diff(train.axles[4:42:2]) == pytest.approx([SWAY] * 18)
+def test_a_ktx_has_the_rhythm_of_its_family_and_is_as_long_as_published():
+    train, family = rb.train("KTX"), rb.train("AVE-S100")
+    assert train.axles[-1] == pytest.approx(380.15, abs=0.02)  # Oh 2008
+    assert np.diff(train.axles[4:42:2]) == pytest.approx([RHYTHM] * 18)
+    assert train.axles[:22] == pytest.approx(family.axles[:22], abs=1e-9)
+    assert np.diff(train.axles[-6:]) == pytest.approx(np.diff(family.axles[-6:]), abs=0.011)
 
 
 def test_korean_span_does_under_a_ktx_what_was_measured():
@@ -107,7 +99,7 @@ def test_korean_span_does_under_a_ktx_what_was_measured():
 def test_resonance_is_at_the_frequency_times_the_distance_of_bogies():
     speeds = np.arange(290.0, 321.0)
     sag, *_ = largest(rb.deck("korea40"), speeds)
-    assert speeds[sag.argmax()] == pytest.approx(3.6 * 4.5 * SWAY, rel=0.01)
+    assert speeds[sag.argmax()] == pytest.approx(3.6 * 4.5 * RHYTHM, rel=0.01)
 
 
 def test_winter_moves_the_resonance_and_leaves_the_acceleration():
@@ -142,7 +134,7 @@ def test_elastic_bearings_undo_the_cancellation_at_antoing():
     hard = replace(rb.deck("antoing50"), rail=soft.rail)
     gains = []
     for deck in (hard, soft):
-        resonance = 3.6 * SWAY * deck.frequencies_hz[0]
+        resonance = 3.6 * RHYTHM * deck.frequencies_hz[0]
         sag, static, _ = largest(deck, np.linspace(0.97, 1.03, 13) * resonance)
         gains.append((sag / static).max())
     assert gains[0] < 1.75 and gains[1] > 1.5 * gains[0]
