@@ -387,8 +387,10 @@ def _list(given: argparse.Namespace) -> int:
                 said = f"{t.axles} axles, {t.length:.4g} m, {t.weight / 1e3:.5g} kN"
                 tell(f"  {t.name:<20}{said}")
             continue
-        for name in shelf.data_names(kind):
-            tell(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
+        names = shelf.data_names(kind)
+        width = max([20, *(len(name) + 1 for name in names)])
+        for name in names:
+            tell(f"  {name:<{width}}{_about(shelf.data_file(kind, name))}".rstrip())
     return 0
 
 
