@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import railbridge as rb
 from railbridge.coupling import prepare
+from railbridge.decks import load_of
 from railbridge.settings import check
 
 L, M, EI = 36.0, 12e3, 8.93e10
@@ -371,3 +372,17 @@ def test_a_deck_of_modes_alone_says_what_it_lacks():
     assert bare.influence("displacement_z", at=18.0, places=[18.0]) == pytest.approx(
         known.influence("displacement_z", at=18.0, places=[18.0]), rel=0.02
     )
+
+
+@pytest.mark.parametrize(
+    ("load", "quantities"),
+    [
+        ("y", ("displacement_y", "rotation_z", "moment_lateral", "shear_lateral", "force_y")),
+        ("z", ("displacement_z", "rotation_y", "moment_vertical", "shear_vertical", "force_z")),
+        ("roll", ("rotation_x", "torsion", "moment_x")),
+        ("z", ("moment_y",)),
+        ("y", ("moment_z",)),
+    ],
+)
+def test_the_load_of_a_quantity_s_own_direction(load, quantities):
+    assert [load_of(quantity) for quantity in quantities] == [load] * len(quantities)

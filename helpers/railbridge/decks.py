@@ -37,29 +37,40 @@ from .guideways import COMPONENTS, Guideway, PiecewiseCubic
 from .response import SampledModes, lagged, sampled_modes
 
 __all__ = [
-    "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
-    "ModesOnly", "RATIO", "Recovery", "checked_damping", "cut_group", "damping_ratios", "load_of",
-    "rayleigh", "rayleigh_ratio", "whole_group",
+    "BEARING_QUANTITIES", "EQUAL", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History",
+    "Line", "ModesOnly", "RATIO", "Recovery", "checked_damping", "cut_group", "damping_ratios",
+    "load_of", "rayleigh", "rayleigh_ratio", "whole_group",
 ]  # fmt: skip
 
 SECTION_QUANTITIES = {
-    "displacement_y": "m", "displacement_z": "m", "rotation_x": "rad", "moment_vertical": "N m",
-    "moment_lateral": "N m", "torsion": "N m", "shear_vertical": "N", "shear_lateral": "N",
+    "displacement_y": "m", "displacement_z": "m", "rotation_x": "rad", "rotation_y": "rad",
+    "rotation_z": "rad", "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m",
+    "shear_vertical": "N", "shear_lateral": "N",
 }  # fmt: skip
+"""What a deck recovers at a section, with units.
+
+Rotations are right-handed and those of the section, which bearings and the gaps at a deck's ends
+feel: rotation_y = -psi_w and rotation_z = psi_v. Without shear flexibility psi is the slope of the
+deck axis, w' and v'; with it the axis' slope is larger by the shear strain. Where only modes along
+the axis are known, it is the axis' slope.
+"""
 REACTION_QUANTITIES = {"force_x": "N", "force_y": "N", "force_z": "N", "moment_x": "N m"}
-"""What a deck recovers at a section and at a bearing line, with units."""
+"""What a deck recovers at a bearing line, with units."""
 BEARING_QUANTITIES = {**REACTION_QUANTITIES, "moment_y": "N m", "moment_z": "N m"}
 """What a deck recovers of one bearing, with units; moments about the bearing itself."""
 
 
 def load_of(quantity: str) -> str:
     """Return the load of a quantity's own direction, one of `guideways.COMPONENTS`."""
-    if quantity.endswith(("_z", "vertical")):
-        return "z"
-    return "roll" if quantity in ("rotation_x", "torsion", "moment_x") else "y"
+    if quantity in ("rotation_x", "torsion", "moment_x"):
+        return "roll"
+    # A deck that bends up and down turns about y, one that bends sideways about z.
+    about_z = quantity in ("rotation_z", "moment_z")
+    upwards = quantity in ("rotation_y", "moment_y") or quantity.endswith(("_z", "vertical"))
+    return "z" if upwards and not about_z else "y"
 
 
-_EQUAL = 1e-5
+EQUAL = 1e-5
 """Relative difference up to which frequencies count as equal: files give six digits."""
 RATIO = Range(least=0.0, most=0.5)
 """What a damping ratio may be, share of critical."""
@@ -116,7 +127,7 @@ def whole_group(frequencies_hz: np.ndarray, count: int) -> int:
     count : int
     """
     while 0 < count < len(frequencies_hz):
-        if frequencies_hz[count] > frequencies_hz[count - 1] * (1.0 + _EQUAL):
+        if frequencies_hz[count] > frequencies_hz[count - 1] * (1.0 + EQUAL):
             break
         count += 1
     return count
@@ -165,7 +176,7 @@ class Line:
 
 
 class Recovery(Protocol):
-    """How a deck's displacements, section forces and reactions follow from its state and loads.
+    """How a deck's motion, section forces and reactions follow from its state and loads.
 
     Every deck has one. What it cannot recover it says in `lacks`, in one sentence; empty if
     nothing.
@@ -174,7 +185,7 @@ class Recovery(Protocol):
     lacks: str
 
     def section(self, quantity: str, x: float) -> Line | None:
-        """Return the line of a displacement or section force at x.
+        """Return the line of a displacement, rotation or section force at x.
 
         None where the deck has no such stiffness, or it cannot be recovered.
         """
@@ -187,6 +198,16 @@ class Recovery(Protocol):
 
         None where it does not hold that freedom.
         """
+
+
+_MOTIONS = {
+    # component of the shapes, derivative along the deck, sign
+    "displacement_y": (0, 0, 1.0),
+    "displacement_z": (1, 0, 1.0),
+    "rotation_x": (2, 0, 1.0),
+    "rotation_y": (1, 1, -1.0),
+    "rotation_z": (0, 1, 1.0),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,13 +230,14 @@ class ModesOnly:
     )
 
     def section(self, quantity: str, x: float) -> Line | None:
-        """Return the line of a displacement or rotation at x, None for section forces."""
-        names = [
-            name for name in SECTION_QUANTITIES if name.startswith(("displacement", "rotation"))
-        ]
-        if errors.choice("quantity", quantity, SECTION_QUANTITIES) not in names:
+        """Return the line of a displacement or rotation at x, None for section forces.
+
+        Rotations about y and z are slopes of the shapes: those of the deck's axis.
+        """
+        if errors.choice("quantity", quantity, SECTION_QUANTITIES) not in _MOTIONS:
             return None
-        modal = self.shapes(np.array([x]))[0, :, names.index(quantity)]
+        component, derivative, sign = _MOTIONS[quantity]
+        modal = sign * self.shapes(np.array([x]), derivative)[0, :, component]
         share = modal / (2 * np.pi * self.frequencies_hz) ** 2
         shape = np.einsum("epmc,m->epc", self.shapes.coefficients, share)[:, :, None]
         return Line(modal, PiecewiseCubic(self.shapes.edges, shape), np.nan)
@@ -362,8 +384,8 @@ class Deck(Guideway):
         Parameters
         ----------
         quantity : str
-            A displacement or section force at x = `at`, or a reaction (``force_z``) of the bearing
-            line there.
+            A displacement, rotation or section force at x = `at`, or a reaction (``force_z``) of
+            the bearing line there.
         at : float
             m.
         places : ndarray, shape (n,)

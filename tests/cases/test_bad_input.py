@@ -398,7 +398,7 @@ FULL = {
     "run": {"speed": 20.0, "time_step": 2.5e-4, "loads": "wheels", "interaction": "iterate",
     "tolerance": 1e-6, "tolerance_of": "displacement", "lead_in": 10.0,
             "tail": 1.0, "max_iterations": 9, "iterations": 2, "relaxation": 0.5,
-            "excitation": "wheels", "feedback": "all"},
+            "excitation": "wheels", "feedback": "all", "acceleration_modes": 60.0},
     "output": {"points": [18.0]},
 }  # fmt: skip
 

@@ -20,7 +20,8 @@ __all__ = ["Dimension", "dataset", "table"]
 
 WORDS = {
     "displacement_y": "lateral displacement", "displacement_z": "vertical displacement",
-    "rotation_x": "twist", "moment_vertical": "vertical bending moment",
+    "rotation_x": "twist", "rotation_y": "rotation about the lateral axis",
+    "rotation_z": "rotation about the vertical axis", "moment_vertical": "vertical bending moment",
     "moment_lateral": "lateral bending moment", "torsion": "torsional moment",
     "shear_vertical": "vertical shear", "shear_lateral": "lateral shear",
     "acceleration_y": "lateral acceleration", "acceleration_z": "vertical acceleration",

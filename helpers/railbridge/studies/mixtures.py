@@ -25,7 +25,7 @@ from ..spectra import amplitude_spectrum, deviation_percent
 from ..tracks import Harmonic, Rails, Track
 from ..trains import Train
 from .lanes import KNOWN, Job, has_given_passes, waves_of
-from .outputs import Output
+from .outputs import Output, history_of
 
 __all__ = ["WORTH", "mixture_key", "run_mixtures"]
 
@@ -115,12 +115,7 @@ def _basis(tracks: Sequence[Track]) -> tuple[list[Track], np.ndarray]:
 
 def _history(run: Crossing, output: Output) -> tuple[np.ndarray, np.ndarray]:
     """Return times and values of an output, on both sides of what jumps too."""
-    if output.is_acceleration:
-        history = run.acceleration(output.x)
-    elif output.is_force:
-        history = run.section_forces(output.x)
-    else:
-        history = run.displacement(output.x)
+    history = history_of(run, output)
     time, values = history.time, history[output.quantity]
     if history.jumps is not None:
         more_time, more = history.jumps(output.quantity)

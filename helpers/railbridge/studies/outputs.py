@@ -8,16 +8,20 @@ value under the standing loads, wherever they stand.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import errors
-from ..decks import SECTION_QUANTITIES, Deck, Line
+from ..cutoffs import counted
+from ..decks import SECTION_QUANTITIES, Deck, History, Line
 from ..errors import InputError
 from ..results import Crossing
 
-__all__ = ["ACCELERATIONS", "OUTPUTS", "Output", "Peaks", "outputs_at", "peaks_of_run"]
+__all__ = [
+    "ACCELERATIONS", "OUTPUTS", "Output", "Peaks", "history_of", "of_modes_counted", "outputs_at",
+    "peaks_of_run",
+]  # fmt: skip
 
 ACCELERATIONS = {"acceleration_y": "m/s2", "acceleration_z": "m/s2", "acceleration_roll": "rad/s2"}
 OUTPUTS = {**SECTION_QUANTITIES, **ACCELERATIONS}
@@ -49,6 +53,11 @@ class Output:
     def is_acceleration(self) -> bool:
         """Whether it is one of `ACCELERATIONS`."""
         return self.quantity in ACCELERATIONS
+
+    @property
+    def is_rotation(self) -> bool:
+        """Whether it is a rotation of the section."""
+        return self.quantity.startswith("rotation")
 
     @property
     def is_force(self) -> bool:
@@ -94,6 +103,30 @@ def _output(deck: Deck, quantity: str, x: float) -> Output:
     return Output(quantity, x, line.modal, line)
 
 
+def of_modes_counted(outputs: Sequence[Output], deck: Deck, up_to_hz: float) -> tuple[Output, ...]:
+    """Return outputs whose accelerations are made of the modes up to a frequency (Hz) alone.
+
+    What is not computed by `crossing.compute` must ask for them: outputs know the deck, and not the
+    settings of a crossing.
+    """
+    kept = counted(deck.frequencies_hz, up_to_hz)
+    return tuple(
+        replace(output, modal=np.where(kept, output.modal, 0.0))
+        if output.is_acceleration
+        else output
+        for output in outputs
+    )
+
+
+def history_of(run: Crossing, output: Output) -> History:
+    """Return the history of a run in which an output stands, under its quantity's name."""
+    if output.is_acceleration:
+        return run.acceleration(output.x)
+    if output.is_force:
+        return run.section_forces(output.x)
+    return run.rotations(output.x) if output.is_rotation else run.displacement(output.x)
+
+
 @dataclass(frozen=True, eq=False)
 class Peaks:
     """The extremes of every output of some crossings.
@@ -135,12 +168,7 @@ def peaks_of_run(run: Crossing, outputs: Sequence[Output]) -> Peaks:
     """Return the extremes of one crossing that is computed already."""
     found = np.full((6, 1, len(outputs)), np.nan)
     for i, output in enumerate(outputs):
-        if output.is_acceleration:
-            history = run.acceleration(output.x)
-        elif output.is_force:
-            history = run.section_forces(output.x)
-        else:
-            history = run.displacement(output.x)
+        history = history_of(run, output)
         (low, low_time), (high, high_time) = history.extremes(output.quantity)
         static = (np.nan, np.nan) if output.line is None else run.static_extremes(output.line)
         found[:, 0, i] = low, high, low_time, high_time, *static
