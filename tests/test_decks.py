@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import railbridge as rb
 from railbridge.coupling import prepare
-from railbridge.decks import load_of
+from railbridge.decks import combined, load_of
 from railbridge.settings import check
 
 L, M, EI = 36.0, 12e3, 8.93e10
@@ -386,3 +386,20 @@ def test_a_deck_of_modes_alone_says_what_it_lacks():
 )
 def test_the_load_of_a_quantity_s_own_direction(load, quantities):
     assert [load_of(quantity) for quantity in quantities] == [load] * len(quantities)
+
+
+def test_lines_add_up_wherever_their_sections_are():
+    deck = simple()
+    places = np.linspace(0.0, L, 401)
+    lines = [deck.recovery.section("moment_vertical", x) for x in (7.3, 18.0, 29.1)]
+    weights = (2.0, -1.0, 0.5)
+    own = combined(list(zip(weights, lines, strict=True)))
+    for derivative in (0, 1):
+        expected = sum(
+            w * line.influence(places, derivative) for w, line in zip(weights, lines, strict=True)
+        )
+        assert own.influence(places, derivative) == pytest.approx(expected, abs=1e-9)
+    assert own.modal == pytest.approx(sum(w * s.modal for w, s in zip(weights, lines, strict=True)))
+    assert own.self_weight == pytest.approx(
+        sum(w * line.self_weight for w, line in zip(weights, lines, strict=True))
+    )

@@ -38,7 +38,8 @@ from .response import SampledModes, lagged, sampled_modes
 
 __all__ = [
     "BEARING_QUANTITIES", "EQUAL", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History",
-    "Line", "ModesOnly", "RATIO", "Recovery", "checked_damping", "cut_group", "damping_ratios",
+    "Line", "ModesOnly", "RATIO", "Recovery", "checked_damping", "combined", "cut_group",
+    "damping_ratios",
     "load_of", "rayleigh", "rayleigh_ratio", "whole_group",
 ]  # fmt: skip
 
@@ -173,6 +174,28 @@ class Line:
     modal: np.ndarray
     influence: PiecewiseCubic
     self_weight: float
+
+
+_SAME_PLACE = 1e-12
+"""Share of the deck by which edges differ that are one."""
+
+
+def combined(parts: Sequence[tuple[float, Line]]) -> Line:
+    """Return the line of a sum of outputs of one deck, each times a number.
+
+    Parameters
+    ----------
+    parts : sequence of (float, Line)
+        All of them displacements, or all forces: the deck's viscosity tells them apart.
+    """
+    edges = np.unique(np.concatenate([line.influence.edges for _, line in parts]))
+    edges = edges[np.append(True, np.diff(edges) > _SAME_PLACE * edges[-1])]
+    cubics = [factor * line.influence.cut(edges).coefficients for factor, line in parts]
+    return Line(
+        sum(factor * line.modal for factor, line in parts),
+        PiecewiseCubic(edges, sum(cubics)),
+        float(sum(factor * line.self_weight for factor, line in parts)),
+    )
 
 
 class Recovery(Protocol):

@@ -400,6 +400,8 @@ FULL = {
             "tail": 1.0, "max_iterations": 9, "iterations": 2, "relaxation": 0.5,
             "excitation": "wheels", "feedback": "all", "acceleration_modes": 60.0},
     "output": {"points": [18.0]},
+    "checks": {"line_speed": 44.4, "track": "ballasted", "kind": "steel", "simple": True,
+               "comfort": "good", "alpha": 1.21, "track_twist": 1e-3},
 }  # fmt: skip
 
 

@@ -133,6 +133,17 @@ def test_the_blocks_of_the_page_on_spectra_run(tmp_path, monkeypatch):
     assert scope["measured"].components == ("vertical",)
 
 
+def test_the_table_for_a_deck_and_its_trains_runs():
+    pytest.importorskip("xarray")
+    text = (ROOT / "docs" / "codes.md").read_text(encoding="utf-8")
+    scope = {}
+    exec(re.search(r"## One table.*?```python\n(.*?)```", text, re.DOTALL)[1], scope)
+    found = scope["found"]
+    assert found.verdict == "not met" and not bool(found.rules["dynamic_analysis_needed"])
+    worst = found.verdicts.to_frame().set_index("what").loc["deck acceleration"]
+    assert worst["verdict"] == "not met" and worst["when"].startswith("HSLM-A1 at 48 m/s")
+
+
 def test_every_unit_is_on_the_case_page():
     text = (ROOT / "docs" / "case.md").read_text(encoding="utf-8")
     listed = text.partition("<!-- table: units -->")[2].partition("<!-- end -->")[0]

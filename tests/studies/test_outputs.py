@@ -9,7 +9,7 @@ import railbridge as rb
 from railbridge import studies
 from railbridge.studies import lanes
 from railbridge.studies.engine import Job, asked_of, respond, row_of_run
-from railbridge.studies.outputs import OUTPUTS, outputs_at, peaks_of_run
+from railbridge.studies.outputs import OUTPUTS, outputs_at, peaks_of_run, twist_at
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +24,11 @@ def test_peaks_are_those_of_the_histories(run):
     assert names == [("displacement_y", 18.0), ("displacement_z", 18.0)]
     peaks = peaks_of_run(run, outputs)
     for i, output in enumerate(outputs):
-        if output.quantity.startswith("acceleration"):
+        if output.quantity == "twist":
+            left, right = (run.displacement(x)["rotation_x"] for x in (output.x, output.x + 3.0))
+            twist = {"twist": 1.435 * (right - left)}
+            history = rb.History(run.time, twist, {"twist": "m"})
+        elif output.quantity.startswith("acceleration"):
             history = run.acceleration(output.x)
         elif output.quantity.startswith("displacement"):
             history = run.displacement(output.x)
@@ -33,9 +37,10 @@ def test_peaks_are_those_of_the_histories(run):
         else:
             history = run.section_forces(output.x)
         value, time = history.extreme(output.quantity)
-        assert peaks.largest[0, i] == abs(value) and peaks.largest_time[0, i] == time
+        assert peaks.largest[0, i] == pytest.approx(abs(value), rel=1e-11)
+        assert peaks.largest_time[0, i] == time
         values = tuple(v for v, _ in history.extremes(output.quantity))
-        assert (peaks.low[0, i], peaks.high[0, i]) == values
+        assert (peaks.low[0, i], peaks.high[0, i]) == pytest.approx(values, rel=1e-11)
     statics = np.isnan(peaks.static[0])
     assert [o.is_acceleration for o in outputs] == statics.tolist()
 
@@ -208,3 +213,17 @@ def test_rotations_are_outputs_like_any_other():
     line = deck.recovery.section("rotation_y", 0.0)
     statics = np.abs(run.static_extremes(line)).max()
     assert found.rotation_y_static.values.ravel()[0] == pytest.approx(statics, rel=1e-3)
+
+
+def test_twist_goes_across_the_ends_of_a_deck(run):
+    deck = run.deck
+    inner, before, behind = (twist_at(deck, x).line for x in (10.0, -2.0, 35.0))
+    turned = {x: deck.recovery.section("rotation_x", x).modal for x in (10.0, 13.0, 1.0, 35.0)}
+    assert inner.modal == pytest.approx(1.435 * (turned[13.0] - turned[10.0]))
+    assert before.modal == pytest.approx(1.435 * turned[1.0])
+    assert behind.modal == pytest.approx(-1.435 * turned[35.0])
+    with pytest.raises(rb.InputError):
+        twist_at(deck, -3.1)
+    plain = rb.Beam("plain", (20.0,), 1e4, 1e10).deck(modes=2)
+    with pytest.raises(rb.InputError, match="rigid in twist.*Leave it out"):
+        outputs_at(plain, ("twist",), [10.0])

@@ -19,6 +19,7 @@ from ..beams.bearings import STIFFEST as STIFFEST_BEARING
 from ..boxes import Box, BoxMesh, Pads
 from ..boxes.pads import DIRECTIONS
 from ..boxes.pads import STIFFEST as STIFFEST_PAD
+from ..checks import Requirements
 from ..codes.hslm import FORCES, SPACING
 from ..codes.wagons import WAGONS
 from ..decks import RATIO
@@ -53,7 +54,9 @@ from .tabletypes import (
     table,
 )
 
-__all__ = ["CASE", "DECK", "DECK_FILE", "OUTPUT", "RUN", "TABLES", "TRACK", "TRAIN", "VEHICLE"]
+__all__ = [
+    "CASE", "CHECKS", "DECK", "DECK_FILE", "OUTPUT", "RUN", "TABLES", "TRACK", "TRAIN", "VEHICLE",
+]  # fmt: skip
 
 
 def _either(*groups: tuple[str, ...]) -> dict[str, Any]:
@@ -672,6 +675,11 @@ OUTPUT = table(
     "What is told of the crossing.",
     points=key(anything(_PLACES, _points), "m along the deck; default mid-length."),
 )
+CHECKS = table(
+    "Checks",
+    "What the clauses of the codes are told of line and bridge.",
+    **fields_of(Requirements),
+)
 CASE = table(
     "Case",
     "One train crosses one deck at one speed. All numbers are SI: m, kg, s, N.",
@@ -680,6 +688,7 @@ CASE = table(
     track=key(TRACK, "Irregularity of the rails; perfect where left out."),
     run=key(RUN, "How the crossing is computed.", required=True),
     output=key(OUTPUT, "What is told of it."),
+    checks=key(CHECKS, "What the clauses of the codes are told of line and bridge."),
 )
 TABLES = {
     "deck": BEAM, "deck.file": SHIPPED, "deck.section": SECTION, "deck.bearing": BEARING,
@@ -690,7 +699,7 @@ TABLES = {
     "named train": NAMED, "train file": FROM_FILE, "train.notch": NOTCH, "track": TRACK,
     "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "random": RANDOM, "file": RECORDED,
     "dip": DIP, "joint": JOINT, "weld": WELD, "none": LEVEL, "run": RUN,
-    "output": OUTPUT, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
+    "output": OUTPUT, "checks": CHECKS, "vehicle": VEHICLE, "body": BODY, "spring": SPRING,
     "wheelset": WHEELSET, "anti roll bar": ANTI_ROLL_BAR,
 }  # fmt: skip
 """Every table by what the pages call it."""
