@@ -7,6 +7,9 @@ are exact at any load position and for any section: inside an element the jump's
 step, a kink, or the shape of a point load) is added to the elements' shape and its interpolation
 taken off, so no section needs a mesh of its own.
 
+A point mass stands on a node, where a jump differs from its interpolation by nothing: it counts in
+the nodal inertia alone, and a section at its place is on the face just before it.
+
 A distance t behind a point load ``g = t^3 / (6 E I) - t / kGA``: the kink of w by 1 / kGA is the
 jump of the shear strain, while psi stays smooth.
 """
@@ -271,8 +274,8 @@ class BeamRecovery:
             return None
         node, load = mesh.bearing_nodes[index], np.zeros(mesh.size)
         freedoms = slice(6 * node, 6 * node + 6)
-        if freedom in bearing.stiffness:
-            load[freedoms] = bearing.stiffness[freedom] * row
+        if freedom in bearing.springs:
+            load[freedoms] = bearing.springs[freedom] * row
             moved = -mesh.solve(load)
         else:
             rigid, rows = mesh.rigid_rows(node)
