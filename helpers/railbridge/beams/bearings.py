@@ -143,11 +143,13 @@ def arm(freedom: str, y: float, z: float, centroid: float = 0.0) -> np.ndarray:
 
 
 def _refuse_stiff(pier: Pier) -> None:
+    given = {"x": "second_moment_along", "y": "second_moment_across", "z": "area"}
     for name, stiffness in pier.stiffness.items():
         if stiffness > STIFFEST:
-            allowed = f"makes the pier stiffer along {name} than {STIFFEST:g} N/m"
-            remedy = "Leave out the pier of a bearing that does not give"
-            raise InputError("pier.height", pier.height, allowed, remedy)
+            allowed = f"makes a pier of {pier.height:g} m stiffer along {name} than "
+            remedy = "Check its unit; leave out the pier of a bearing that does not give"
+            value = getattr(pier, given[name])
+            raise InputError(f"pier.{given[name]}", value, f"{allowed}{STIFFEST:g} N/m", remedy)
 
 
 def _checked_freedoms(fixed: Any) -> tuple[str, ...]:
