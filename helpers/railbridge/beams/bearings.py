@@ -60,8 +60,8 @@ class Bearing:
         Where simple spans meet: the span it carries, from 1. Left out: one such bearing stands
         under each.
     pier : Pier, optional
-        What the bearing stands on: springs in series with what it holds along x, y and z. None
-        where the ground below it does not give.
+        What the bearing stands on: springs in series with what it holds along x, y and z. Left
+        out: the ground below it does not give.
 
     Raises
     ------

@@ -18,7 +18,7 @@ class Pier:
     It gives way under the shifts that the bearing holds; turns stay held as by the bearing itself.
     Its mass is left out, and so are its foundation and what its head turns. That is good far below
     the first frequency of the pier alone, ``0.56 sqrt(E I / (m h^4))`` Hz with m its mass per
-    metre: 13 Hz for a concrete column of 2 by 2 m and 10 m height, a fourth of it for 20 m. Where
+    metre: 12 Hz for a concrete column of 2 by 2 m and 10 m height, a fourth of it for 20 m. Where
     that is near the frequencies of interest, model the pier in another program (`exchange`). Where
     several bearings stand on one pier, give each its share of area and second moments.
 

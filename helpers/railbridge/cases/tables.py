@@ -46,6 +46,7 @@ from .tabletypes import (
     key,
     list_of,
     meanings,
+    measured,
     named_numbers,
     number,
     numbers,
@@ -416,7 +417,7 @@ PER_MODE = table(
     "A ratio for each mode.",
     base=_Damping,
     per_mode=key(
-        anything({"type": "array", "minItems": 1, "items": _RATIO}, _per_mode),
+        measured(anything({"type": "array", "minItems": 1, "items": _RATIO}, _per_mode)),
         meanings(ModalDamping)["ratios"],
         required=True,
     ),
@@ -462,7 +463,7 @@ BEARING = table(
     **fields_of(
         Bearing,
         fixed=_words(FIXITIES),
-        stiffness=named_numbers(FIXITIES, above=0.0, most=STIFFEST_BEARING),
+        stiffness=named_numbers(FIXITIES, above=0.0, most=STIFFEST_BEARING, unit="N/m or N m/rad"),
         pier=PIER,
     )
     | {
@@ -480,7 +481,7 @@ PADS = table(
     **fields_of(
         Pads,
         fixed=_words(DIRECTIONS),
-        stiffness=named_numbers(DIRECTIONS, above=0.0, most=STIFFEST_PAD),
+        stiffness=named_numbers(DIRECTIONS, above=0.0, most=STIFFEST_PAD, unit="N/m"),
     ),
 )
 POINT_MASS = table("PointMass", "A mass at one place of the deck.", **fields_of(PointMass))
@@ -498,7 +499,9 @@ _RAIL = key(
     "{ bending_stiffness, foundation }; not at all if left out.",
 )
 _CARRYING = {
-    "tracks": key(named_numbers(), "Named tracks: m left of the deck axis, { left = 2.4 }."),
+    "tracks": key(
+        named_numbers(unit="m"), "Named tracks: m left of the deck axis, { left = 2.4 }."
+    ),
     "width": key(number(above=0.0, unit="m"), "m, on which the wheels must stand."),
     "track_height": key(
         number(least=-50.0, most=50.0, unit="m"), meanings(Guideway)["track_height"], 0.0
@@ -716,7 +719,7 @@ _PLACES = {
 OUTPUT = table(
     "Output",
     "What is told of the crossing.",
-    points=key(anything(_PLACES, _points), "m along the deck; default mid-length."),
+    points=key(measured(anything(_PLACES, _points), "m"), "m along the deck; default mid-length."),
 )
 CASE = table(
     "Case",
