@@ -517,8 +517,8 @@ _MODES = key(
     "How many modes are kept, the lowest that loads can excite; chosen if left out.",
 )
 _DAMPING = (
-    "Rayleigh { ratio, frequencies_hz } or { alpha, beta }; { modal }, the same ratio for every "
-    "mode; or { per_mode }, a ratio for each."
+    "Rayleigh { ratio, frequencies_hz } or { alpha, beta }, one ratio for every mode { modal }, or "
+    "one for each { per_mode }."
 )
 _POINT_MASSES = "Masses at single places, besides the mass per metre: [[deck.point_mass]]."
 _BEARINGS = "Bearings; default: y, z and roll at both ends of every span, x at the first."
