@@ -98,3 +98,12 @@ def test_windows_never_describe_more_than_they_hold(monkeypatch):
     monkeypatch.undo()
     whole = rb.cross(train, DECK, speed=30.0, iterations=1, time_step=3e-3)
     assert np.array_equal(run.wheel_forces, whole.wheel_forces)
+
+
+def test_a_function_is_the_same_between_more_edges():
+    rng = np.random.default_rng(5)
+    function = PiecewiseCubic(np.array([0.0, 2.0, 5.0, 10.0]), rng.normal(size=(3, 4, 2, 3)))
+    finer = function.cut(np.array([0.0, 0.7, 2.0, 3.0, 3.5, 5.0, 10.0]))
+    x = np.concatenate([rng.uniform(0.0, 10.0, 50), [0.0, 2.0, 3.0, 10.0]])
+    for derivative in (0, 1, 2):
+        assert finer(x, derivative) == pytest.approx(function(x, derivative), rel=1e-9, abs=1e-9)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import perm
+from math import comb, perm
 
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
@@ -76,6 +76,25 @@ class PiecewiseCubic:
         for first, last in zip([0, *ends[:-1].tolist()], ends.tolist(), strict=True):
             np.matmul(own[i[first]].T, factors[:, first:last], out=result[:, first:last])
         return result.T.reshape(len(x), *self.coefficients.shape[2:])
+
+    def cut(self, edges: np.ndarray) -> PiecewiseCubic:
+        """Return the same functions between more edges.
+
+        Parameters
+        ----------
+        edges : ndarray, shape (e + 1,)
+            m, ascending; all of its own are among them.
+        """
+        middles = (edges[1:] + edges[:-1]) / 2
+        i = np.clip(np.searchsorted(self.edges, middles) - 1, 0, len(self.edges) - 2)
+        h = np.diff(self.edges)[i]
+        # Powers of s = start + length t in powers of t.
+        start, length = (edges[:-1] - self.edges[i]) / h, np.diff(edges) / h
+        shifted = np.zeros((4, 4, len(i)))
+        for q in range(4):
+            for p in range(q, 4):
+                shifted[q, p] = comb(p, q) * start ** (p - q) * length**q
+        return PiecewiseCubic(edges, np.einsum("qpe,epnc->eqnc", shifted, self.coefficients[i]))
 
 
 @dataclass(frozen=True, eq=False)

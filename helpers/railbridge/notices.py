@@ -316,8 +316,8 @@ def _moving_ends(deck: Deck) -> list[Remark]:
         return []
     how = "at full weight" if deck.rail is None else "by quarters and halves of their weight"
     text = (
-        "An end of the deck moves (elastic bearings or an overhang): wheels step on or off there "
-        f"{how}, so accelerations are not to be trusted. Try a rail on a bed, "
+        "An end of the deck moves (elastic bearings, piers or an overhang): wheels step on or off "
+        f"there {how}, so accelerations are not to be trusted. Try a rail on a bed, "
         "deck.rail = { bending_stiffness = 1.28e7, foundation = 1e8 }."
     )
     return [ResultWarning("", text)]

@@ -17,9 +17,14 @@ from . import errors
 from .errors import InputError, Range, brief, check_fields
 
 __all__ = [
-    "FadeIn", "Harmonic", "Irregularity", "Level", "Notch", "Rails", "Table", "Track", "extent_of",
-    "period_of",
+    "FadeIn", "Harmonic", "Irregularity", "Level", "Notch", "Rails", "TRACK_GAUGE", "TWIST_LENGTH",
+    "Table", "Track", "extent_of", "period_of",
 ]  # fmt: skip
+
+TRACK_GAUGE = 1.435
+"""m between the rails, over which their heights differ where a track is twisted."""
+TWIST_LENGTH = 3.0
+"""m of track over which twist is measured."""
 
 _OTHER_SIGN = "Shift the phase by pi to change the sign"
 

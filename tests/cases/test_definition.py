@@ -331,3 +331,31 @@ def test_many_places_count_for_the_size_of_a_run():
     fits = PAPER.replace({"run.time_step": step})
     with pytest.raises(rb.InputError, match=r"^output\.points = 100: a run with so many places"):
         fits.replace({"output.points": [0.36 * i for i in range(100)]})
+
+
+def test_the_table_of_checks_becomes_what_the_clauses_are_told():
+    assert PAPER.requirements is None
+    given = {"line_speed": 44.4, "kind": "steel", "comfort": "good", "alpha": 1.21}
+    case = changed(checks=given)
+    assert case.requirements == rb.Requirements(**given)
+    assert case.replace({"run.speed": 30.0}).requirements == case.requirements
+    assert case.replace({"checks": None}).requirements is None
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({}, r"^checks\.line_speed: is missing"),
+        ({"line_speed": 160}, None),
+        ({"line_speed": 400}, r"^checks\.line_speed = 400: .*at most 200 m/s"),
+        ({"line_speed": 40, "kind": "stone"}, r"^checks\.kind = 'stone'"),
+        ({"line_speed": 40, "alpha": 1.2}, r"^checks\.alpha = 1\.2: must be one of 0\.75"),
+        ({"line_speed": 40, "speed": 3}, r"^checks\.speed: unknown key"),
+    ],
+)
+def test_checks_are_refused_by_their_keys(given, said):
+    if said is None:
+        assert changed(checks=given).requirements.line_speed == 160.0
+        return
+    with pytest.raises(rb.InputError, match=said):
+        changed(checks=given)

@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 
 import railbridge as rb
-from railbridge.codes import DAMPING, additional_damping, damping_lower_bound, damping_ratio
+from railbridge.codes import (
+    DAMPING,
+    additional_damping,
+    damping_limit,
+    damping_lower_bound,
+    damping_ratio,
+    judge,
+)
 
 # Per cent at 5, 10, 15, 20 and 60 m, by hand: 0.5 + 0.125 x 15 = 2.375 and so on.
 BY_HAND = {
@@ -79,3 +86,17 @@ def test_another_material_is_refused(kind):
 def test_choices_are_true_or_false(field):
     with pytest.raises(rb.InputError, match=rf"^{field} = 1: must be true or false"):
         damping_ratio("steel", 10.0, **{field: 1})
+
+
+def test_a_deck_may_have_what_is_the_lower_bound_or_was_measured():
+    assert float(damping_limit("steel", 10.0)) == float(damping_lower_bound("steel", 10.0))
+    assert float(damping_limit("steel", 10.0, 0.03)) == 0.03
+    assert float(damping_limit(None, 10.0, 0.004)) == 0.004
+    unknown = damping_limit(None, 10.0)
+    assert not unknown.decided and "filler beam" in unknown.reason
+    assert judge(0.0176, damping_limit("steel", 10.0)).verdict == "not met"
+    assert judge(0.0175, damping_limit("steel", 10.0)).verdict == "met"
+    with pytest.raises(rb.InputError, match="measured"):
+        damping_limit("steel", 10.0, 0.0)
+    with pytest.raises(rb.InputError, match="kind"):
+        damping_limit("stone", 10.0)

@@ -8,6 +8,9 @@ import pytest
 import railbridge as rb
 from railbridge.codes import (
     determinant_length,
+    dynamic_effect,
+    dynamic_effect_limit,
+    judge,
     phi2,
     phi3,
     phi_double_prime,
@@ -195,3 +198,19 @@ def test_other_refusals():
     for rule in (real_train_factor, track_factor):
         with pytest.raises(rb.InputError, match=r"^maintained\b"):
             rule(10.0, 10.0, 20.0, maintained="yes")
+
+
+def test_the_moment_of_a_dynamic_analysis_and_beside_what_it_is_held():
+    track = track_factor(10.0, 10.0, 50.0)  # 1 + 0.30336 / 2
+    value = dynamic_effect(2e6, 0.4, track)
+    assert float(value) == pytest.approx((1.0 + 0.4 + 0.30336 / 2) * 2e6, rel=1e-5)
+    limit = dynamic_effect_limit(-2e6, phi3(10.0))
+    assert float(limit) == pytest.approx(1.4592 * 2e6, rel=1e-4)
+    assert judge(value, limit).verdict == "not met"
+    assert judge(dynamic_effect(1.8e6, 0.4, track), limit).verdict == "met"
+    outside = track_factor(10.0, 5.0, 50.0)
+    assert "outside" in dynamic_effect(2e6, 0.4, outside).reason
+    assert "outside" in dynamic_effect_limit(2e6, phi3(0.03)).reason
+    for call in (lambda: dynamic_effect(2e6, -1.1, track), lambda: dynamic_effect(2e6, 0.1, 1.2)):
+        with pytest.raises(rb.InputError, match="phi_dyn|track"):
+            call()

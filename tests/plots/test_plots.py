@@ -345,7 +345,7 @@ def test_a_quantity_s_factor_is_that_of_its_unit(name):
     style = QUANTITY_STYLES[name]
     assert style.factor == DRAWN[style.unit]
     for direction, mark in (("vertical", ("_z", "vertical")), ("lateral", ("_y", "lateral"))):
-        if name.endswith(mark) and not name.startswith("moment_"):
+        if name.endswith(mark) and not name.startswith(("moment_", "rotation_")):
             assert style.words.startswith(direction), name
 
 
@@ -576,6 +576,8 @@ def test_twist_is_drawn_as_the_rise_of_the_edge(width, lever, word):
         ("displacement_z", 1, 1e9, "mm per MN"),
         ("displacement_y", 0, 1e9, "mm per MN"),
         ("rotation_x", 2, 1e9, "mrad per MN m"),
+        ("rotation_y", 1, 1e9, "mrad per MN"),
+        ("rotation_z", 0, 1e9, "mrad per MN"),
         ("moment_vertical", 1, 1.0, "m"),
         ("moment_lateral", 0, 1.0, "m"),
         ("shear_vertical", 1, 1.0, "-"),
@@ -620,6 +622,7 @@ def test_ways_of_loading_stand_under_their_names(run, case):
     for quantity, call in (
         ("moment_vertical", "section_forces"), ("acceleration_z", "acceleration"),
         ("displacement_z", "displacement"), ("rotation_x", "displacement"),
+        ("rotation_y", "rotations"),
     ):  # fmt: skip
         ax = plots.load_modes(runs, 12.0, quantity)
         assert ax.get_title(loc="left") == "x = 12 m"

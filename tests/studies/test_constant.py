@@ -90,7 +90,14 @@ def test_forces_and_displacements_are_those_of_cross(damping):
         modes=6, damping=damping
     )
     train = rb.AxleTrain((0.0, 3.0, 14.0, 17.0, 40.0, 43.0), (170e3,) * 6)
-    names = ("displacement_z", "rotation_x", "moment_vertical", "shear_vertical", "torsion")
+    names = (
+        "displacement_z",
+        "rotation_x",
+        "moment_vertical",
+        "shear_vertical",
+        "torsion",
+        "twist",
+    )
     outputs = outputs_at(own, names, [L / 2, 6.0])
     found = constant_loads(own, train, [50.0], outputs, track_offset=2.0)
     run = rb.cross(train, own, speed=50.0, track_offset=2.0, time_step=2.5e-4, interaction="rigid")

@@ -8,6 +8,9 @@ inside an element the jump's own function g (a step, a kink, or the shape of a p
 is added to the elements' shape and its interpolation taken off, so no section needs a mesh of its
 own.
 
+A point mass stands on a node, where a jump differs from its interpolation by nothing: it counts in
+the nodal inertia alone, and a section at its place is on the face just before it.
+
 A distance t behind a point load ``g = t^3 / (6 E I) - t / kGA``: the kink of w by 1 / kGA is the
 jump of the shear strain, while psi stays smooth. Behind a couple that turns the section towards
 w' > 0 the moment E I psi' falls by one and the shear force stays, so with ``psi = -t / E I`` and no
@@ -284,8 +287,8 @@ class BeamRecovery:
             return None
         node, load = mesh.bearing_nodes[index], np.zeros(mesh.size)
         freedoms = slice(6 * node, 6 * node + 6)
-        if freedom in bearing.stiffness:
-            load[freedoms] = bearing.stiffness[freedom] * row
+        if freedom in bearing.springs:
+            load[freedoms] = bearing.springs[freedom] * row
             moved = -mesh.solve(load)
         else:
             rigid, rows = mesh.rigid_rows(node)

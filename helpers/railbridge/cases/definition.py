@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from .. import errors, exchange
+from ..checks import Requirements
 from ..crossing import NotConvergedError, compute, warn_of
 from ..decks import Deck
 from ..errors import InputError, Remark, within
@@ -57,6 +58,8 @@ class Case:
         What was left open in them filled in.
     points : ndarray
         Places of interest along the deck, m.
+    requirements : Requirements or None
+        What the clauses of the codes are told, for `checks.assess_run`; None if not given.
 
     Notes
     -----
@@ -72,6 +75,7 @@ class Case:
     options: dict[str, Any] = field(init=False, compare=False)
     settings: Settings = field(init=False, compare=False)
     points: np.ndarray = field(init=False, compare=False)
+    requirements: Requirements | None = field(init=False, compare=False)
 
     def __repr__(self) -> str:
         cars, speed = len(self.train.formation), self.settings.speed
@@ -93,9 +97,11 @@ class Case:
         needed = bytes_needed(train, deck, settings, len(points))
         remedy = "Use fewer places or a larger run.time_step"
         refuse_bytes("output.points", len(points), needed, "a run with so many places", remedy)
+        with within("checks"):
+            needs = None if t.checks is None else Requirements(**t.checks.given)
         made = {
             "content": content, "train": train, "deck": deck, "track": track, "options": options,
-            "settings": settings, "points": points,
+            "settings": settings, "points": points, "requirements": needs,
         }  # fmt: skip
         for name, value in made.items():
             object.__setattr__(self, name, value)

@@ -6,7 +6,9 @@ from .. import errors
 from ..errors import InputError
 from .clauses import LENGTH, Answer, Clause, Within, by_clause, outside
 
-__all__ = ["DAMPING", "additional_damping", "damping_lower_bound", "damping_ratio"]
+__all__ = [
+    "DAMPING", "additional_damping", "damping_limit", "damping_lower_bound", "damping_ratio",
+]  # fmt: skip
 
 DAMPING = {
     "steel": (0.005, 0.00125),
@@ -29,6 +31,12 @@ _ADDITIONAL = Clause(
         "only for constant axle loads, never with vehicles on springs (counted twice); many "
         "countries forbid it; 0 from 29.22 m, where its formula is negative"
     ),
+)  # fmt: skip
+_LIMIT = Clause(
+    "damping of the deck", "EN 1991-2", "6.4.6", "", "two", sense="at most",
+    memory="that a measured ratio may be used",
+    ranges=(Within("L", above=0.0, unit="m"),),
+    conditions="the lower bound, or what was measured on the bridge",
 )  # fmt: skip
 _RATIO = Clause(
     "damping of the analysis", "EN 1991-2", "6.4.6", "", "two",
@@ -95,6 +103,38 @@ def additional_damping(L: float) -> Answer:
     above = 0.0187 * length - 0.00064 * length**2
     below = 1.0 - 0.0441 * length - 0.0044 * length**2 + 0.000255 * length**3
     return Answer(max(above / below / 100.0, 0.0), _ADDITIONAL)
+
+
+@by_clause(_LIMIT)
+def damping_limit(kind: str | None, L: float, measured: float | None = None) -> Answer:
+    """Return the damping ratio that a deck in an analysis may have: more is not safe.
+
+    Parameters
+    ----------
+    kind : str or None
+        One of `DAMPING`; undecided where neither kind nor ratio is known.
+    L : float
+        Span, m.
+    measured : float, optional
+        Damping ratio measured on the bridge, which then counts.
+
+    Returns
+    -------
+    Answer
+        A fraction.
+
+    Raises
+    ------
+    InputError
+    """
+    length = LENGTH.checked("L", L)
+    if measured is not None:
+        ratio = errors.number("measured", measured, above=0.0, most=0.5)
+        return Answer(ratio, _LIMIT, "measured")
+    if kind is None:
+        known = ", ".join(DAMPING)
+        return Answer(None, _LIMIT, f"the kind of bridge is not given, one of {known}")
+    return Answer(float(damping_lower_bound(kind, length)), _LIMIT, f"lower bound, {kind}")
 
 
 @by_clause(_RATIO)

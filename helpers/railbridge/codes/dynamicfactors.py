@@ -24,8 +24,8 @@ from .clauses import (
 from .frequencies import outside_n0_bounds
 
 __all__ = [
-    "determinant_length", "phi2", "phi3", "phi_double_prime", "phi_prime", "real_train_factor",
-    "reduced_for_cover", "track_factor",
+    "determinant_length", "dynamic_effect", "dynamic_effect_limit", "phi2", "phi3",
+    "phi_double_prime", "phi_prime", "real_train_factor", "reduced_for_cover", "track_factor",
 ]  # fmt: skip
 
 # The formulas have a pole at sqrt(L) = 0.2.
@@ -60,6 +60,19 @@ _PHI_PRIME, _PHI_DOUBLE_PRIME, _REAL_TRAIN = _REAL
 _TRACK = Clause(
     "factor for the track", "EN 1991-2", "6.4.6 and Annex C", "", "two",
     conditions=f"{_FIGURE}; any speed, for phi'' does not change from 22 m/s",
+)  # fmt: skip
+_EFFECT = Clause(
+    "dynamic moment of a train", "EN 1991-2", "6.4.6.5", "N m", "two",
+    memory="number of the clause",
+    conditions="bending moments; phi'_dyn of the same train on a smooth track",
+)  # fmt: skip
+_EFFECT_LIMIT = Clause(
+    "moment by dynamic analysis", "EN 1991-2", "6.4.6.5", "N m", "two", sense="at most",
+    memory="number of the clause",
+    conditions=(
+        "bending moments; a deck that bears Phi times the load models bears the trains, too; "
+        "where they do more, they govern"
+    ),
 )  # fmt: skip
 
 
@@ -286,6 +299,63 @@ def track_factor(L: float, n0: float, v: float, *, maintained: bool = True) -> A
     if reason := outside_n0_bounds(L, n0):
         return Answer(None, _TRACK, reason)
     return Answer(1.0 + half * _unevenness(L, n0, v), _TRACK)
+
+
+@by_clause(_EFFECT)
+def dynamic_effect(static: float, phi_dyn: float, track: Answer) -> Answer:
+    """Return (1 + phi'_dyn + phi''/2) times the static moment of a train.
+
+    Parameters
+    ----------
+    static : float
+        N m, of the train that stands where it is worst.
+    phi_dyn : float
+        phi'_dyn = max |y_dyn / y_stat| - 1, of a dynamic analysis.
+    track : Answer
+        1 + phi''/2; see `track_factor`.
+
+    Returns
+    -------
+    Answer
+        N m; undecided where the factor for the track is.
+
+    Raises
+    ------
+    InputError
+    """
+    moment = errors.number("static", static, unit="N m")
+    passage = errors.number("phi_dyn", phi_dyn, least=-1.0)
+    factor = errors.instance("track", track, Answer)
+    if not factor.decided:
+        return Answer(None, _EFFECT, factor.reason)
+    return Answer((float(factor) + passage) * moment, _EFFECT)
+
+
+@by_clause(_EFFECT_LIMIT)
+def dynamic_effect_limit(static: float, phi: Answer) -> Answer:
+    """Return Phi times the static moment of the load models, beside which trains are held.
+
+    Parameters
+    ----------
+    static : float
+        N m, the largest of LM71 and, on continuous decks, SW/0, alpha included.
+    phi : Answer
+        Phi2 or Phi3.
+
+    Returns
+    -------
+    Answer
+        N m; undecided where Phi is.
+
+    Raises
+    ------
+    InputError
+    """
+    moment = errors.number("static", static, unit="N m")
+    factor = errors.instance("phi", phi, Answer)
+    if not factor.decided:
+        return Answer(None, _EFFECT_LIMIT, factor.reason)
+    return Answer(float(factor) * abs(moment), _EFFECT_LIMIT)
 
 
 def _not_annex_c(clause: Clause, L: float, n0: float, v: float) -> str:

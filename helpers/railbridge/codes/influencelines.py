@@ -11,7 +11,7 @@ from .. import errors
 from ..decks import REACTION_QUANTITIES, Deck, Line
 from ..guideways import COMPONENTS
 
-__all__ = ["InfluenceLine", "influence_line"]
+__all__ = ["InfluenceLine", "influence_line", "under_unit_load"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,13 +166,13 @@ def influence_line(deck: Deck, quantity: str, at: float, y: float = 0.0) -> Infl
     deck.influence(quantity, at=at, places=[0.0], load="z")  # refuses what cannot be recovered
     place = errors.place("at", at, (0.0, deck.length))
     if quantity in REACTION_QUANTITIES:
-        return _cleaned(_under_unit_load(deck.recovery.reaction(quantity, place), y))
+        return _cleaned(under_unit_load(deck.recovery.reaction(quantity, place), y))
     # At a bearing a line may be nothing but rounding: what it is elsewhere tells.
     usual = max(
-        _under_unit_load(deck.recovery.section(quantity, share * deck.length), y).size
+        under_unit_load(deck.recovery.section(quantity, share * deck.length), y).size
         for share in (0.31, 0.5)
     )
-    return _cleaned(_under_unit_load(deck.recovery.section(quantity, place), y), usual)
+    return _cleaned(under_unit_load(deck.recovery.section(quantity, place), y), usual)
 
 
 _NOTHING = 1e-14
@@ -181,7 +181,7 @@ _ROUNDING = 1e-11
 """Share of a line's size below which a piece of it is rounding, and no effect of any load."""
 
 
-def _under_unit_load(line: Line, y: float) -> InfluenceLine:
+def under_unit_load(line: Line, y: float) -> InfluenceLine:
     """Return what 1 N downwards does, y to the left of the axis."""
     cubic, (z, roll) = line.influence, (COMPONENTS.index(name) for name in ("z", "roll"))
     along = cubic.coefficients[:, :, 0, z] + y * cubic.coefficients[:, :, 0, roll]

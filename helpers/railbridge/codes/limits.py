@@ -10,6 +10,7 @@ import numpy as np
 from .. import errors
 from ..cutoffs import counted, different, en1990_limit
 from ..errors import InputError
+from ..tracks import TWIST_LENGTH
 from .clauses import KMH, LENGTH, SPEED, UNSEEN, Answer, Clause, by_clause, not_above
 
 __all__ = [
@@ -23,8 +24,6 @@ ACCELERATIONS = {"ballasted": 3.5, "direct fastening": 5.0}
 """m/s2, by how the track lies on the deck."""
 COMFORT = {"very good": 1.0, "good": 1.3, "acceptable": 2.0}
 """m/s2, by level of comfort."""
-TWIST_LENGTH = 3.0
-"""m of track over which twist is measured."""
 
 _TWISTS = (0.0045, 0.0030, 0.0015)
 _ROTATIONS = (0.0035, 0.0020, 0.0015)

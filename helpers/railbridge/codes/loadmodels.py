@@ -175,8 +175,12 @@ class LoadModel:
         line = influence_line(deck, quantity, at, deck.track_offset(track))
         place = errors.place("at", at, (0.0, deck.length))
         unit = {**SECTION_QUANTITIES, **REACTION_QUANTITIES}[quantity]
-        least, largest = (self._worst_of(line, sign) for sign in (-1.0, 1.0))
+        least, largest = self.effects(line)
         return Worst(self.name, quantity, unit, place, least, largest)
+
+    def effects(self, line: InfluenceLine) -> tuple[StaticEffect, StaticEffect]:
+        """Return the most negative and the most positive effect on any influence line."""
+        return self._worst_of(line, -1.0), self._worst_of(line, 1.0)
 
     def _worst_of(self, line: InfluenceLine, sign: float) -> StaticEffect:
         """Return the effect that is largest in the direction of a sign."""

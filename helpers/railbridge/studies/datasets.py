@@ -21,8 +21,9 @@ __all__ = ["Dimension", "dataset", "table"]
 WORDS = {
     "displacement_y": "lateral displacement", "displacement_z": "vertical displacement",
     "rotation_x": "twist", "rotation_y": "rotation about the lateral axis",
-    "rotation_z": "rotation about the vertical axis", "moment_vertical": "vertical bending moment",
-    "moment_lateral": "lateral bending moment", "torsion": "torsional moment",
+    "rotation_z": "rotation about the vertical axis", "twist": "twist of the track over 3 m",
+    "moment_vertical": "vertical bending moment", "moment_lateral": "lateral bending moment",
+    "torsion": "torsional moment",
     "shear_vertical": "vertical shear", "shear_lateral": "lateral shear",
     "acceleration_y": "lateral acceleration", "acceleration_z": "vertical acceleration",
     "acceleration_roll": "twisting acceleration",
@@ -77,8 +78,9 @@ def dataset(
     xarray.Dataset
         For every quantity, over the dimensions and ``x`` (m): itself (largest magnitude),
         ``_min``, ``_max``, ``_time`` (of the largest magnitude, s), and where it has one
-        ``_static`` (largest magnitude under the standing loads) and ``_dynamic_factor``. Every
-        number. ``message``: why a point is NaN, empty where all is well.
+        ``_static`` (largest magnitude under the standing loads) and ``_dynamic_factor``; NaN at
+        places where it was not asked for. Every number. ``message``: why a point is NaN, empty
+        where all is well.
     """
     needed("xarray")
     import xarray as xr
@@ -93,9 +95,12 @@ def dataset(
     places = list(dict.fromkeys(output.x for output in asked.outputs))
     variables: dict[str, tuple] = {}
     for quantity in quantities:
-        own = [i for i, output in enumerate(asked.outputs) if output.quantity == quantity]
-        low, high, low_time, high_time, static_low, static_high = (
-            six[:, k, own].reshape(*shape, len(places)) for k in range(6)
+        own = {o.x: i for i, o in enumerate(asked.outputs) if o.quantity == quantity}
+        at_places = np.full((6, len(rows), len(places)), np.nan)
+        asked_at = [places.index(x) for x in own]
+        at_places[:, :, asked_at] = six[:, :, list(own.values())].swapaxes(0, 1)
+        low, high, low_time, high_time, static_low, static_high = at_places.reshape(
+            6, *shape, len(places)
         )
         down = -low > high
         unit, words = OUTPUTS[quantity], WORDS[quantity]

@@ -20,7 +20,7 @@ from ..settings import Settings
 from ..tracks import Track
 from ..trains import AnyTrain, AxleTrain
 from .constant import constant_loads
-from .lanes import WIDTH, advance_of, eligible, run_lanes
+from .lanes import KNOWN, WIDTH, advance_of, eligible, run_lanes
 from .mixtures import mixture_key, run_mixtures
 from .outputs import Output, Peaks, peaks_of_run
 
@@ -39,12 +39,21 @@ def _deviation(run: Crossing) -> float:
     return float(run.deviations.from_rigid[-1]) if run.iterations else np.nan
 
 
+def _ride(run: Crossing) -> float:
+    vertical = run.body_accelerations[:, :, 1]
+    return float(np.nanmax(np.abs(vertical))) if vertical.size else np.nan
+
+
 NUMBERS: dict[str, tuple[str, str, Callable[[Crossing], float]]] = {
     "wheel_unloading": ("-", "largest 1 - force / static force of a wheel", _unloading),
     "wheel_force_z": ("N", "largest vertical force of a wheel, static part included", _heaviest),
+    "body_acceleration_z": (
+        "m/s2", "largest vertical acceleration of a car body, at its front, middle or rear; none "
+        "of bare axle loads", _ride,
+    ),
     "deviation_from_rigid": ("%", "Eq. 3 of the last pass against the rigid deck", _deviation),
     "iterations": ("-", "passes after the rigid deck", lambda run: float(run.iterations)),
-}
+}  # fmt: skip
 """What a study can be asked for of a whole crossing: unit, meaning, and how a run is asked."""
 
 
@@ -155,6 +164,7 @@ def respond(
     constant: dict[tuple, list[int]] = {}
     lanes: dict[tuple, list[int]] = {}
     mixtures: dict[Hashable, list[int]] = {}
+    whole = bool(asked.more) or not set(asked.numbers) <= set(KNOWN)
     for i, job in enumerate(jobs):
         s = job.settings
         key = mixture_key(job, asked.numbers, bool(asked.more)) if job.mixed else None
@@ -164,7 +174,7 @@ def respond(
         if isinstance(job.train, AxleTrain) and not asked.more:
             key = id(job.train), s.track_offset, s.tail, s.accelerations_up_to_hz
             constant.setdefault(key, []).append(i)
-        elif side_by_side and eligible(deck, job, asked.outputs, bool(asked.more)):
+        elif side_by_side and eligible(deck, job, asked.outputs, whole):
             passes = s.interaction, s.iterations, s.track_offset, s.accelerations_up_to_hz
             lanes.setdefault((id(job.train), advance_of(s), *passes), []).append(i)
         else:
@@ -199,8 +209,8 @@ def respond(
             continue
         heaviest = max(axle.static_load for axle in train.placed_axles)
         known = {
-            "wheel_unloading": 0.0, "wheel_force_z": heaviest, "deviation_from_rigid": 0.0,
-            "iterations": 0.0,
+            "wheel_unloading": 0.0, "wheel_force_z": heaviest, "body_acceleration_z": np.nan,
+            "deviation_from_rigid": 0.0, "iterations": 0.0,
         }  # fmt: skip
         numbers = np.array([known[name] for name in asked.numbers])
         for n, i in enumerate(own):

@@ -26,7 +26,10 @@ from .study import CHUNK, CHUNK_OF_LOADS, Point, carry_out
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["QUANTITIES", "OnDeck", "named_trains", "signature", "speed_envelope"]
+__all__ = [
+    "QUANTITIES", "Crossings", "OnDeck", "checked_speeds", "crossings", "named_trains", "signature",
+    "speed_envelope",
+]  # fmt: skip
 
 QUANTITIES = ("displacement_z", "acceleration_z", "moment_vertical")
 """What an envelope is asked for if nothing else is."""
@@ -134,11 +137,80 @@ def speed_envelope(
         Before anything is computed. A single crossing that fails is NaN, with its message.
     """
     deck = errors.instance("deck", deck, Deck)
+    points = [deck.length / 2] if points is None else points
+    asked = asked_of(outputs_at(deck, quantities, points), numbers)
+    found = crossings(
+        deck, trains, speeds, asked, track=track, store=store, chunk=chunk, workers=workers,
+        client=client, progress=progress, **options,
+    )  # fmt: skip
+    return found.dataset(deck, asked)
+
+
+@dataclass(frozen=True, eq=False)
+class Crossings:
+    """Crossings of one deck by trains at speeds, the last fastest.
+
+    Attributes
+    ----------
+    trains : dict of AnyTrain
+    speeds : ndarray, shape (n,)
+        m/s.
+    chosen : bool
+        Whether the speeds were chosen here.
+    rows : list of Row, or of a text where a point was refused
+    """
+
+    trains: dict[str, AnyTrain]
+    speeds: np.ndarray
+    chosen: bool
+    rows: list[Row | str]
+
+    def dataset(self, deck: Deck, asked: Asked) -> xr.Dataset:
+        """Return them as labelled arrays; see `speed_envelope`."""
+        title = f"speed envelope of {deck.name}"
+        if self.chosen:
+            title += f", {len(self.speeds)} speeds chosen: halving the steps changes no peak by "
+            title += f"more than {100 * SETTLED:g} %"
+        dimensions = (
+            Dimension("train", list(self.trains)),
+            Dimension("speed", self.speeds.tolist(), "m/s", "run.speed", "speed of the train"),
+        )
+        found = dataset(dimensions, asked, self.rows, {"title": title})
+        return signature(found, deck, self.trains)
+
+
+def crossings(
+    deck: Deck,
+    trains: Any,
+    speeds: Sequence[float] | Between,
+    asked: Asked,
+    *,
+    watched: Sequence[int] | None = None,
+    track: Track | None = None,
+    store: Store | None = None,
+    chunk: int | None = None,
+    workers: int = 1,
+    client: Any = None,
+    progress: Callable[[int, int], None] | None = None,
+    **options: Any,
+) -> Crossings:
+    """Compute what is asked of trains over speeds; see `speed_envelope`.
+
+    Parameters
+    ----------
+    deck, trains, speeds
+    asked : Asked
+    watched : sequence of int, optional
+        Which of its outputs decide where chosen speeds lie; all if not given.
+    track, store, chunk, workers, client, progress, **options
+
+    Raises
+    ------
+    InputError
+    """
     by_name = named_trains(trains)
     if not isinstance(speeds, Between):
         speeds = checked_speeds(speeds)
-    points = [deck.length / 2] if points is None else points
-    asked = asked_of(outputs_at(deck, quantities, points), numbers)
     track = Track() if track is None else errors.instance("track", track, Track)
     if "speed" in options:
         raise InputError("speed", options["speed"], "is given by speeds", "Leave it out")
@@ -149,6 +221,7 @@ def speed_envelope(
         constant = all(isinstance(train, AxleTrain) for train in by_name.values())
         chunk = CHUNK_OF_LOADS if constant else CHUNK
     how = {"chunk": chunk, "workers": workers, "client": client, "progress": progress}
+    watched = range(len(asked.outputs)) if watched is None else watched
 
     def planned(train: AnyTrain, along: np.ndarray) -> list[Point]:
         own, found = fingerprint(train), []
@@ -164,28 +237,20 @@ def speed_envelope(
             check(train, deck, track, speed=float(along[0]), **options)  # which says why
         return found
 
-    title = f"speed envelope of {deck.name}"
-    if isinstance(speeds, Between):
-        chosen = []
+    chosen = isinstance(speeds, Between)
+    if chosen:
+        of_trains = []
         for train in by_name.values():
 
             def largest(along: np.ndarray, train: AnyTrain = train) -> np.ndarray:
                 rows = carry_out(planned(train, along), task, store, **how)
                 found = [row if isinstance(row, Row) else Row.failed(asked, row) for row in rows]
-                return np.array([row.peaks(asked).largest[0] for row in found])
+                return np.array([row.peaks(asked).largest[0, list(watched)] for row in found])
 
-            chosen.append(refined(largest, starting_speeds(deck, train, speeds)))
-        speeds = np.unique(np.concatenate(chosen))
-        title += f", {len(speeds)} speeds chosen: halving the steps changes no peak by more than "
-        title += f"{100 * SETTLED:g} %"
-    points_of_all = [point for train in by_name.values() for point in planned(train, speeds)]
-    rows = carry_out(points_of_all, task, store, **how)
-    dimensions = (
-        Dimension("train", list(by_name)),
-        Dimension("speed", speeds.tolist(), "m/s", "run.speed", "speed of the train"),
-    )
-    found = dataset(dimensions, asked, rows, {"title": title})
-    return signature(found, deck, by_name)
+            of_trains.append(refined(largest, starting_speeds(deck, train, speeds)))
+        speeds = np.unique(np.concatenate(of_trains))
+    points = [point for train in by_name.values() for point in planned(train, speeds)]
+    return Crossings(by_name, speeds, chosen, carry_out(points, task, store, **how))
 
 
 def signature(found: xr.Dataset, deck: Deck, trains: Mapping[str, AnyTrain]) -> xr.Dataset:

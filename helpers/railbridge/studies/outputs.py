@@ -14,18 +14,20 @@ import numpy as np
 
 from .. import errors
 from ..cutoffs import counted
-from ..decks import SECTION_QUANTITIES, Deck, History, Line
+from ..decks import SECTION_QUANTITIES, Deck, History, Line, combined
 from ..errors import InputError
 from ..results import Crossing
+from ..tracks import TRACK_GAUGE, TWIST_LENGTH
 
 __all__ = [
     "ACCELERATIONS", "OUTPUTS", "Output", "Peaks", "history_of", "of_modes_counted", "outputs_at",
-    "peaks_of_run",
+    "peaks_of_run", "twist_at",
 ]  # fmt: skip
 
 ACCELERATIONS = {"acceleration_y": "m/s2", "acceleration_z": "m/s2", "acceleration_roll": "rad/s2"}
-OUTPUTS = {**SECTION_QUANTITIES, **ACCELERATIONS}
+OUTPUTS = {**SECTION_QUANTITIES, "twist": "m", **ACCELERATIONS}
 """Quantities that a study can be asked for at a place, with units."""
+_FORCES = ("moment", "torsion", "shear", "force")
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +37,7 @@ class Output:
     Attributes
     ----------
     quantity : str
-        One of `OUTPUTS`.
+        One of `OUTPUTS`, or what it is called: a name that begins with ``force`` is a bearing's.
     x : float
         m.
     modal : ndarray, shape (modes,)
@@ -61,8 +63,8 @@ class Output:
 
     @property
     def is_force(self) -> bool:
-        """Whether it is a section force, which the deck's viscosity carries too."""
-        return self.quantity.startswith(("moment", "torsion", "shear"))
+        """Whether it is a section force or a bearing's: the deck's viscosity carries it too."""
+        return self.quantity.startswith(_FORCES)
 
 
 def outputs_at(
@@ -96,6 +98,8 @@ def _output(deck: Deck, quantity: str, x: float) -> Output:
             raise InputError("quantities", quantity, "the deck does not move that way")
         modal = deck.shapes(np.array([x]))[0, :, component].copy()
         return Output(quantity, x, modal, None)
+    if quantity == "twist":
+        return twist_at(deck, x)
     line = deck.recovery.section(quantity, x)
     if line is None:
         allowed = deck.recovery.lacks or "the deck has no such stiffness"
@@ -118,13 +122,31 @@ def of_modes_counted(outputs: Sequence[Output], deck: Deck, up_to_hz: float) -> 
     )
 
 
-def history_of(run: Crossing, output: Output) -> History:
-    """Return the history of a run in which an output stands, under its quantity's name."""
-    if output.is_acceleration:
-        return run.acceleration(output.x)
-    if output.is_force:
-        return run.section_forces(output.x)
-    return run.rotations(output.x) if output.is_rotation else run.displacement(output.x)
+def twist_at(deck: Deck, x: float) -> Output:
+    """Return the twist of the track over the 3 m behind a place: by how much the left rail rises.
+
+    The gauge times the difference of rotations, ``1.435 m (theta(x + 3 m) - theta(x))``. What lies
+    beyond the ends of the deck does not rotate.
+
+    Parameters
+    ----------
+    deck : Deck
+    x : float
+        m; from 3 m before the deck on.
+
+    Raises
+    ------
+    InputError
+        A deck that is rigid in twist.
+    """
+    if not deck.has["roll"]:
+        raise InputError("quantities", "twist", "the deck is rigid in twist", "Leave it out")
+    ends = (-TWIST_LENGTH, 0.0, deck.length, deck.length + TWIST_LENGTH)
+    places = [(s, errors.place("x", x + d, ends)) for s, d in ((-1, 0.0), (1, TWIST_LENGTH))]
+    on_deck = [(s, place) for s, place in places if 0.0 <= place <= deck.length]
+    lines = [(s * TRACK_GAUGE, deck.recovery.section("rotation_x", place)) for s, place in on_deck]
+    line = combined(lines)
+    return Output("twist", float(x), line.modal, line)
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,6 +184,21 @@ class Peaks:
     def static(self) -> np.ndarray:
         """Largest magnitude under the standing loads; NaN for accelerations."""
         return np.maximum(-self.static_low, self.static_high)
+
+
+def history_of(run: Crossing, output: Output) -> History:
+    """Return the history of one output in a crossing, under its quantity's name."""
+    deck, state, name = run.deck, run.state, output.quantity
+    where, units = f"x = {output.x:g} m", {name: OUTPUTS.get(name, "")}
+    if output.is_force:
+        return run.recovered({name: output.line}, units, where=where)
+    if output.is_acceleration:
+        modal = deck.acceleration(state.q, state.velocity, state.modal_force)
+        (own,) = of_modes_counted([output], deck, run.settings.accelerations_up_to_hz)
+        return History(run.time, {name: own.modal @ modal}, units, where)
+    static, step = run.static(output.line), run.settings.time_step
+    values = deck.displaced(output.line, state.q, state.modal_force, static, step)
+    return History(run.time, {name: values}, units, where)
 
 
 def peaks_of_run(run: Crossing, outputs: Sequence[Output]) -> Peaks:

@@ -1,0 +1,306 @@
+"""A deck and its trains against the clauses: one table of verdicts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import codes, errors
+from ..codes import Answer, Verdicts
+from ..crossing import compute
+from ..decks import Deck
+from ..errors import brief
+from ..results import Crossing
+from ..settings import check
+from ..studies import Between, Row, Store, crossings, row_of_run
+from ..studies.envelopes import Crossings
+from ..tracks import Level, Track
+from ..trains import AnyTrain, AxleTrain
+from .judging import Finding, Point, Points
+from .questions import Questions
+from .requirements import Requirements
+from .rules import coverage, rules, speed_gaps
+from .staticloads import StaticLoads
+from .structure import Structure
+from .trainclauses import TrainClauses
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+__all__ = ["Assessment", "assess", "assess_run"]
+
+
+@dataclass(frozen=True, eq=False)
+class Assessment:
+    """What is found of a deck and its trains.
+
+    Attributes
+    ----------
+    deck : Deck
+    needs : Requirements
+    verdicts : Verdicts
+        A row for each clause, the worst over trains and speeds; ``where`` is the place, ``when``
+        train and speed.
+    rules : dict of Answer
+        What the rules say by name: need of a dynamic analysis, bounds of n0, factors, speeds.
+    envelope : xarray.Dataset
+        The largest responses over ``train``, ``speed`` (m/s) and ``x`` (m).
+    of_trains : dict of tuple of Finding
+        By train, its own findings of the clauses that trains decide.
+    """
+
+    __repr__ = brief
+
+    deck: Deck
+    needs: Requirements
+    verdicts: Verdicts
+    rules: dict[str, Answer]
+    envelope: xr.Dataset
+    of_trains: dict[str, tuple[Finding, ...]] = field(repr=False)
+
+    @property
+    def verdict(self) -> str:
+        """``not met`` if one clause is not; ``cannot decide`` if one is undecided."""
+        return self.verdicts.verdict
+
+    def per_train(self) -> pd.DataFrame:
+        """Return a pandas DataFrame, a row for each train and clause that trains decide.
+
+        Columns: value and unit, utilisation, verdict, speed (m/s) at which it is; a value is shown
+        also where it is not enough to decide.
+        """
+        import pandas as pd
+
+        rows = [
+            {
+                "train": train,
+                "what": one.verdict.clause.title,
+                "value": np.nan if one.value is None else one.value,
+                "unit": one.verdict.clause.unit,
+                "utilisation": one.utilisation,
+                "verdict": one.verdict.verdict,
+                "speed": np.nan if one.point is None else one.point.speed,
+            }
+            for train, findings in self.of_trains.items()
+            for one in findings
+        ]
+        return pd.DataFrame(rows).set_index(["train", "what"])
+
+    def rules_frame(self) -> pd.DataFrame:
+        """Return a pandas DataFrame of the rules: what, answer, unit, reason, clause, source."""
+        import pandas as pd
+
+        rows = {
+            name: {
+                "what": answer.clause.title,
+                "answer": "cannot decide" if answer.value is None else answer.value,
+                "unit": "" if isinstance(answer.value, bool) else answer.unit,
+                "reason": answer.reason,
+                "clause": answer.clause.name,
+                "source": answer.clause.source,
+            }
+            for name, answer in self.rules.items()
+        }
+        return pd.DataFrame.from_dict(rows, orient="index").rename_axis("rule")
+
+
+def assess(
+    deck: Deck,
+    trains: Any,
+    speeds: Sequence[float] | Between,
+    needs: Requirements,
+    *,
+    track: Track | None = None,
+    workers: int = 1,
+    store: Store | None = None,
+    progress: Callable[[int, int], None] | None = None,
+    **options: Any,
+) -> Assessment:
+    """Judge a deck and its trains over speeds by the clauses of EN 1990 and EN 1991-2.
+
+    Parameters
+    ----------
+    deck : Deck
+    trains : mapping of trains by name, one train, or several
+        Cars and bare axle loads.
+    speeds : sequence of float, or Between
+        m/s; see `studies.speed_envelope`. A dynamic analysis asks for 40 m/s to 1.2 times the
+        line's speed; where one is or may be needed and they do not cover that, what is met is not
+        decided.
+    needs : Requirements
+    track : Track, optional
+        Level if not given.
+    workers, store, progress
+        See `studies.speed_envelope`.
+    **options
+        As for `cross`, without the speed.
+
+    Returns
+    -------
+    Assessment
+        What cannot be known is *cannot decide* with a reason, never met.
+
+    Raises
+    ------
+    InputError
+        Before anything is computed. A single crossing that fails leaves a reason.
+
+    Notes
+    -----
+    Horizontal rotations and radii are those of the trains' own forces, so they are never met: wind,
+    nosing and centrifugal forces are not in them. Deflections are those of the deck axis.
+    """
+    errors.instance("deck", deck, Deck)
+    errors.instance("needs", needs, Requirements)
+    parts = _Parts(Structure(deck, needs), _offset(deck, options))
+    asked = parts.questions.asked
+    found = crossings(
+        deck, trains, speeds, asked, watched=parts.questions.watched, track=track,
+        workers=workers, store=store, progress=progress, **options,
+    )  # fmt: skip
+    answers = rules(parts.structure, parts.questions)
+    answers["speeds_covered"] = coverage(answers, found.speeds.tolist())
+    smooth = _smooth(track, found.trains.values())
+    clauses = TrainClauses(
+        parts.structure, parts.questions, parts.loads, smooth, speed_gaps(answers)
+    )
+    own = {
+        name: [point for point in _points(found) if point.train == name] for name in found.trains
+    }
+    of_trains = {
+        name: tuple(clauses.findings(Points.of(points, asked))) for name, points in own.items()
+    }
+    every = Points.of([point for points in own.values() for point in points], asked)
+    worst = clauses.findings(every)
+    located = _Located(deck, found.trains, Track() if track is None else track, options)
+    rows = [located(one).verdict for one in [*parts.loads.findings(), *worst]]
+    shown, which = parts.questions.shown
+    short = [row if isinstance(row, str) else _part(row, which) for row in found.rows]
+    picture = Crossings(found.trains, found.speeds, found.chosen, short).dataset(deck, shown)
+    return Assessment(deck, needs, Verdicts(rows), answers, picture, of_trains)
+
+
+def assess_run(run: Crossing, needs: Requirements) -> Verdicts:
+    """Judge one crossing by the clauses of EN 1990 and EN 1991-2, by its own histories.
+
+    Parameters
+    ----------
+    run : Crossing
+    needs : Requirements
+
+    Returns
+    -------
+    Verdicts
+        As those of `assess`, of one train at one speed: that other speeds may be worse is not said.
+
+    Raises
+    ------
+    InputError
+    """
+    errors.instance("run", run, Crossing)
+    errors.instance("needs", needs, Requirements)
+    parts = _Parts(Structure(run.deck, needs), run.settings.track_offset)
+    asked = parts.questions.asked
+    name = getattr(run.train, "name", "") or "train"
+    cars = not isinstance(run.train, AxleTrain)
+    point = Point(name, cars, run.settings.speed, row_of_run(run, asked))
+    smooth = _smooth(run.track, [run.train])
+    clauses = TrainClauses(parts.structure, parts.questions, parts.loads, smooth)
+    worst = clauses.findings(Points.of([point], asked))
+    findings = [*parts.loads.findings(), *worst]
+    return Verdicts([_placed(one, run).verdict for one in findings])
+
+
+@dataclass(frozen=True, eq=False)
+class _Parts:
+    """What an assessment is made from before any train runs."""
+
+    structure: Structure
+    offset: float
+    questions: Questions = field(init=False)
+    loads: StaticLoads = field(init=False)
+
+    def __post_init__(self) -> None:
+        questions = Questions(self.structure)
+        object.__setattr__(self, "questions", questions)
+        object.__setattr__(self, "loads", StaticLoads(self.structure, questions, self.offset))
+
+
+def _offset(deck: Deck, options: dict[str, Any]) -> float:
+    return deck.track_offset(options.get("track_offset", 0.0))
+
+
+def _smooth(track: Track | None, trains: Any) -> bool:
+    """Whether rails are level and wheels round: then phi'' speaks for what they are not."""
+    track = Track() if track is None else track
+    rails = [track.rail(d, side) for d in ("vertical", "lateral") for side in ("left", "right")]
+    level = all(isinstance(rail, Level) for rail in rails)
+    return level and not any(getattr(train, "notches", ()) for train in trains)
+
+
+def _points(found: Crossings) -> list[Point]:
+    pairs = [(name, float(v)) for name in found.trains for v in found.speeds]
+    return [
+        Point(name, not isinstance(found.trains[name], AxleTrain), speed, row)
+        for (name, speed), row in zip(pairs, found.rows, strict=True)
+    ]
+
+
+def _part(row: Row, which: np.ndarray) -> Row:
+    return Row(row.values[which], row.message)
+
+
+# ---- where in a train
+
+
+@dataclass(frozen=True, eq=False)
+class _Located:
+    """Says which car or wheel it was: the crossing that decided is computed once more."""
+
+    deck: Deck
+    trains: dict[str, AnyTrain]
+    track: Track
+    options: dict[str, Any]
+    runs: dict[tuple[str, float], Crossing] = field(default_factory=dict)
+
+    def __call__(self, one: Finding) -> Finding:
+        if one.point is None or one.verdict.clause not in _OF_CARS:
+            return one
+        key = one.point.train, one.point.speed
+        if key not in self.runs:
+            train = self.trains[one.point.train]
+            settings = check(train, self.deck, self.track, speed=one.point.speed, **self.options)
+            self.runs[key] = compute(train, self.deck, self.track, settings)
+        return _placed(one, self.runs[key])
+
+
+_OF_CARS = {
+    codes.comfort_limit.clause: "body",
+    codes.wheel_unloading_limit.clause: "wheel",
+}
+
+
+def _placed(one: Finding, run: Crossing) -> Finding:
+    """Return a finding with the car or wheel of its crossing."""
+    kind = _OF_CARS.get(one.verdict.clause)
+    if kind is None or one.point is None or one.value is None:
+        return one
+    where = _body(run) if kind == "body" else _wheel(run)
+    return replace(one, verdict=replace(one.verdict, where=where))
+
+
+def _body(run: Crossing) -> str:
+    vertical = np.abs(run.body_accelerations[:, :, 1])
+    car, place, _ = np.unravel_index(np.nanargmax(vertical), vertical.shape)
+    coach = f", coach {place // 3 + 1}" if vertical.shape[1] > 3 else ""
+    return f"car {car + 1}{coach}, {('front', 'middle', 'rear')[place % 3]}"
+
+
+def _wheel(run: Crossing) -> str:
+    wheel, _ = np.unravel_index(np.nanargmax(run.wheel_unloading), run.wheel_unloading.shape)
+    own = run.train.wheels[wheel]
+    return f"car {own.car}, wheel {own.number}"

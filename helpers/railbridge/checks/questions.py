@@ -1,0 +1,201 @@
+"""What is asked of every crossing for a check: outputs along the deck, by what they serve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .. import codes
+from ..codes import KeptModes
+from ..decks import Deck, Line, combined
+from ..settings import STATIONS
+from ..studies import Asked, Output, of_modes_counted, outputs_at, twist_at
+from ..tracks import TWIST_LENGTH
+from .structure import Span, Structure
+
+__all__ = ["NUMBERS", "Bearing", "Questions"]
+
+NUMBERS = ("wheel_unloading", "body_acceleration_z")
+"""What is asked of a whole crossing."""
+_BESIDE = 0.01
+"""Share of the deck over which the slope of its end is taken."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bearing:
+    """A bearing, or a line of them, that may lift.
+
+    Attributes
+    ----------
+    words : str
+        Where it is.
+    output : Output
+    hides : bool
+        Whether it holds the deck against twist, so that it stands for several bearings.
+    """
+
+    words: str
+    output: Output
+    hides: bool
+
+    @property
+    def self_weight(self) -> float:
+        """Its force under the deck's own weight, N."""
+        return self.output.line.self_weight
+
+
+@dataclass(frozen=True, eq=False)
+class Questions:
+    """What is asked of a deck.
+
+    Attributes
+    ----------
+    structure : Structure
+    """
+
+    structure: Structure
+
+    @property
+    def deck(self) -> Deck:
+        """The deck."""
+        return self.structure.deck
+
+    @cached_property
+    def kept(self) -> KeptModes:
+        """The modes of which deck accelerations are made."""
+        return codes.kept_modes(np.sort(self.deck.frequencies_hz))
+
+    @cached_property
+    def accelerations(self) -> tuple[Output, ...]:
+        """Vertical accelerations at stations along the deck, of the modes kept."""
+        places = np.linspace(0.0, self.deck.length, STATIONS).round(9)
+        found = outputs_at(self.deck, ("acceleration_z",), places)
+        if not self.kept.limit.decided:
+            return found
+        return of_modes_counted(found, self.deck, float(self.kept.limit))
+
+    @cached_property
+    def displacements(self) -> tuple[Output, ...]:
+        """Vertical displacements at mid-span, for the picture."""
+        return outputs_at(self.deck, ("displacement_z",), self._middles)
+
+    @cached_property
+    def moments(self) -> tuple[tuple[Span, Output], ...]:
+        """Vertical bending moments at mid-span."""
+        if self.deck.recovery.lacks or not self.structure.spans:
+            return ()
+        found = outputs_at(self.deck, ("moment_vertical",), self._middles)
+        return tuple(zip(self.structure.spans, found, strict=True))
+
+    @cached_property
+    def twists(self) -> tuple[Output, ...]:
+        """Twist over 3 m, from before the deck to its end; none where it is rigid in twist."""
+        deck = self.deck
+        if not deck.has["roll"]:
+            return ()
+        lines = np.array([0.0, *deck.supports, deck.length])
+        along = np.linspace(-TWIST_LENGTH, deck.length, STATIONS // 3)
+        places = np.unique(np.concatenate([along, lines, lines - TWIST_LENGTH]).round(9))
+        return tuple(twist_at(deck, x) for x in places[places >= -TWIST_LENGTH])
+
+    @cached_property
+    def end_rotations(self) -> tuple[Output, ...]:
+        """Rotations of both ends about the vertical; none where the deck is rigid sideways.
+
+        The slope of the lateral displacement at an end, by three places a hundredth of the deck
+        apart: (-3 v_0 + 4 v_1 - v_2) / (2 h).
+        """
+        length = self.deck.length
+        h = _BESIDE * length
+        found = []
+        for end, inwards in ((0.0, h), (length, -h)):
+            lines = self._lateral(end, end + inwards, end + 2 * inwards)
+            if lines:
+                weights = np.array([-3.0, 4.0, -1.0]) / (2 * inwards)
+                line = combined(list(zip(weights, lines, strict=True)))
+                found.append(Output("end rotation", end, line.modal, line))
+        return tuple(found)
+
+    @cached_property
+    def bows(self) -> tuple[tuple[Span, Output], ...]:
+        """Lateral displacements at mid-span against the chord of the span's ends."""
+        found = []
+        for span in self.structure.spans:
+            lines = self._lateral(span.start, span.middle, span.end)
+            if lines:
+                line = combined(list(zip((-0.5, 1.0, -0.5), lines, strict=True)))
+                found.append((span, Output("bow", span.middle, line.modal, line)))
+        return tuple(found)
+
+    @cached_property
+    def bearings(self) -> tuple[Bearing, ...]:
+        """Bearings that hold the deck up: single ones, or else lines."""
+        deck, recovery = self.deck, self.deck.recovery
+        if recovery.lacks:
+            return ()
+        if deck.bearings:
+            own = [
+                (f"bearing {n} at x = {x:g}, y = {y:g} m", x,
+                 recovery.bearing(n, "force_z"), recovery.bearing(n, "moment_x"))
+                for n, (x, y, _) in enumerate(deck.bearings, start=1)
+            ]  # fmt: skip
+        else:
+            own = [
+                (f"bearings at x = {x:g} m", x,
+                 recovery.reaction("force_z", x), recovery.reaction("moment_x", x))
+                for x in deck.supports
+            ]  # fmt: skip
+        return tuple(
+            Bearing(words, Output("force_z", x, up.modal, up), couple is not None)
+            for words, x, up, couple in own
+            if up is not None
+        )
+
+    @cached_property
+    def asked(self) -> Asked:
+        """All of it, in the order of places."""
+        found = [
+            *self.accelerations, *self.displacements, *(o for _, o in self.moments), *self.twists,
+            *self.end_rotations, *(o for _, o in self.bows), *(b.output for b in self.bearings),
+        ]  # fmt: skip
+        return Asked(tuple(sorted(found, key=lambda output: output.x)), NUMBERS)
+
+    @cached_property
+    def number_of(self) -> dict[int, int]:
+        """Which of the asked outputs each is, by its `id`."""
+        return {id(output): i for i, output in enumerate(self.asked.outputs)}
+
+    @property
+    def watched(self) -> list[int]:
+        """What decides where chosen speeds lie: mid-spans and the quarters of the deck."""
+        quarters = self.accelerations[:: (STATIONS - 1) // 4][1:-1]
+        own = [*quarters, *self.displacements, *(output for _, output in self.moments)]
+        return [self.number_of[id(output)] for output in own]
+
+    @property
+    def shown(self) -> tuple[Asked, np.ndarray]:
+        """What a data set over places can hold, and which numbers of a row that is."""
+        quantities = ("acceleration_z", "displacement_z", "moment_vertical", "twist")
+        own = [
+            i
+            for i, o in enumerate(self.asked.outputs)
+            if o.quantity in quantities and 0.0 <= o.x <= self.deck.length
+        ]
+        count = len(self.asked.outputs)
+        six = [k * count + i for k in range(6) for i in own]
+        numbers = [6 * count + i for i in range(len(NUMBERS))]
+        asked = Asked(tuple(self.asked.outputs[i] for i in own), NUMBERS)
+        return asked, np.array([*six, *numbers])
+
+    @property
+    def _middles(self) -> list[float]:
+        spans = self.structure.spans
+        return [span.middle for span in spans] if spans else [self.deck.length / 2]
+
+    def _lateral(self, *places: float) -> list[Line]:
+        """Return lines of lateral displacement, none where the deck is rigid sideways."""
+        if not self.deck.has["y"]:
+            return []
+        return [self.deck.recovery.section("displacement_y", x) for x in places]

@@ -1,0 +1,104 @@
+"""What the rules say before any train runs: factors, bounds, and which speeds must be covered."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from .. import codes
+from ..codes import Answer, Clause
+from ..codes.clauses import not_above
+from .questions import Questions
+from .structure import Structure
+
+__all__ = ["coverage", "rules", "speed_gaps"]
+
+
+def rules(structure: Structure, questions: Questions) -> dict[str, Answer]:
+    """Return the answers of the rules for a deck and a line, by name.
+
+    Parameters
+    ----------
+    structure : Structure
+    questions : Questions
+
+    Returns
+    -------
+    dict of Answer
+        Undecided with a reason where something is not known. phi' and phi'' are those at the
+        speed of the line.
+    """
+    needs, span = structure.needs, structure.longest
+    v, n0, length = needs.line_speed, structure.n0, structure.length_of(span)
+    missing = "" if n0 is not None else "the deck has no mode of vertical bending"
+    missing = missing or ("" if length.decided else length.reason)
+
+    def known(rule, *more, **options) -> Answer:
+        if missing:
+            return Answer(None, rule.clause, missing)
+        return rule(float(length), n0, v, *more, **options)
+
+    bounds = codes.n0_bounds
+    lower, upper = (
+        bounds(float(length)) if length.decided else [Answer(None, bounds.clause, missing)] * 2
+    )
+    if needs.kind is None or not length.decided:
+        reason = "the kind of bridge is not given (kind)" if needs.kind is None else length.reason
+        damping = Answer(None, codes.damping_lower_bound.clause, reason)
+    else:
+        damping = codes.damping_lower_bound(needs.kind, float(length))
+    slowest, fastest = codes.analysis_speeds(v)
+    maintained = {"maintained": needs.careful_track}
+    return {
+        "dynamic_analysis_needed": known(codes.dynamic_analysis_needed, simple=structure.simple),
+        "n0_lower_bound": lower,
+        "n0_upper_bound": upper,
+        "n0_within_bounds": _within(lower, upper, n0, missing, bounds.clause),
+        "slowest_analysis_speed": slowest,
+        "fastest_analysis_speed": fastest,
+        "determinant_length": length,
+        "phi2" if needs.careful_track else "phi3": structure.phi_of(span),
+        "phi_prime": known(codes.phi_prime),
+        "phi_double_prime": known(codes.phi_double_prime),
+        "real_train_factor": known(codes.real_train_factor, **maintained),
+        "track_factor": known(codes.track_factor),
+        "damping_lower_bound": damping,
+        "frequency_limit": questions.kept.limit,
+    }
+
+
+def _within(lower: Answer, upper: Answer, n0: float | None, missing: str, clause: Clause) -> Answer:
+    """Return whether the first frequency is within Figure 6.10."""
+    if missing or not lower.decided:
+        return Answer(None, clause, missing or lower.reason)
+    inside = not_above(float(lower), n0) and not_above(n0, float(upper))
+    return Answer(inside, clause, f"n0 = {n0:.4g} Hz")
+
+
+def coverage(found: dict[str, Answer], speeds: Sequence[float]) -> Answer:
+    """Return whether speeds cover a dynamic analysis: 40 m/s to 1.2 times the line's.
+
+    Parameters
+    ----------
+    found : dict of Answer
+        See `rules`.
+    speeds : sequence of float
+        m/s.
+    """
+    slowest, fastest = found["slowest_analysis_speed"], found["fastest_analysis_speed"]
+    clause, own = slowest.clause, f"{min(speeds):.4g} to {max(speeds):.4g} m/s"
+    if not slowest.decided:
+        return Answer(None, clause, slowest.reason)
+    asked = f"{float(slowest):.4g} to {float(fastest):.4g} m/s"
+    low = not_above(min(speeds), float(slowest))
+    if low and not_above(float(fastest), max(speeds)):
+        return Answer(True, clause, f"{len(speeds)} speeds, {own}, where {asked} are asked for")
+    return Answer(False, clause, f"{own} do not cover {asked}")
+
+
+def speed_gaps(found: dict[str, Answer]) -> tuple[str, ...]:
+    """Return what the speeds leave out of a dynamic analysis, if one is or may be needed."""
+    need, covered = found["dynamic_analysis_needed"], found["speeds_covered"]
+    spared = need.decided and not bool(need)
+    if spared or (covered.decided and bool(covered)):
+        return ()
+    return (f"speeds: {covered.reason}",)
