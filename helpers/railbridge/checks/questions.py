@@ -53,9 +53,12 @@ class Questions:
     Attributes
     ----------
     structure : Structure
+    stations : int
+        Places along the deck where its acceleration is asked for, ends included.
     """
 
     structure: Structure
+    stations: int = STATIONS
 
     @property
     def deck(self) -> Deck:
@@ -70,7 +73,7 @@ class Questions:
     @cached_property
     def accelerations(self) -> tuple[Output, ...]:
         """Vertical accelerations at stations along the deck, of the modes kept."""
-        places = np.linspace(0.0, self.deck.length, STATIONS).round(9)
+        places = np.linspace(0.0, self.deck.length, self.stations).round(9)
         found = outputs_at(self.deck, ("acceleration_z",), places)
         if not self.kept.limit.decided:
             return found
@@ -170,7 +173,7 @@ class Questions:
     @property
     def watched(self) -> list[int]:
         """What decides where chosen speeds lie: mid-spans and the quarters of the deck."""
-        quarters = self.accelerations[:: (STATIONS - 1) // 4][1:-1]
+        quarters = self.accelerations[:: (self.stations - 1) // 4][1:-1]
         own = [*quarters, *self.displacements, *(output for _, output in self.moments)]
         return [self.number_of[id(output)] for output in own]
 

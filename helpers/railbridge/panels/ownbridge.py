@@ -1,4 +1,4 @@
-"""The panel of notebook 11: a bridge by its numbers, over the speeds of a line, and the verdicts."""
+"""The panel of notebook 11: a bridge by its numbers, over the speeds of a line, and verdicts."""
 
 from __future__ import annotations
 
@@ -8,15 +8,18 @@ from typing import Any
 from .. import plots
 from ..cases.definition import Case
 from ..cases.simplebridge import SimpleBridge
-from ..checks import Assessment
 from ..errors import Remark
 from .control import Control
-from .panel import Panel
+from .panel import Panel, Progress
 from .shared import Values
 
 __all__ = ["own_bridge"]
 
 TRAINS = ("HSLM-A1", "HSLM-A4", "HSLM-A10", "ICE2", "AVE-S100", "Talgo350")
+FEW = 25
+"""Speeds while a control moves."""
+STATIONS = 5
+"""Along the deck."""
 _LIMIT = "deck acceleration"
 
 
@@ -35,7 +38,7 @@ def own_bridge(case: Case | None = None) -> Panel:
         line_speed=55.5,
     ).case() if case is None else case  # fmt: skip
 
-    def draw(axes: Any, case: Case, found: Assessment, values: Values) -> None:
+    def draw(axes: Any, case: Case, found: Any, values: Values) -> None:
         limit = _acceleration(found).limit
         plots.envelope(
             found.envelope, "acceleration_z", x=found.deck.length / 2, ax=axes["acceleration"],
@@ -43,7 +46,7 @@ def own_bridge(case: Case | None = None) -> Panel:
         )  # fmt: skip
         plots.utilisation(found.verdicts, axes["verdicts"])
 
-    def say(case: Case, found: Assessment, values: Values) -> str:
+    def say(case: Case, found: Any, values: Values) -> str:
         worst = _acceleration(found)
         f1 = found.deck.frequencies_hz[0]
         kmh = 3.6 * values["line_speed"]
@@ -77,8 +80,10 @@ def own_bridge(case: Case | None = None) -> Panel:
         draw,
         say,
         compute=_assessed,
+        preview=_at_a_few_speeds,
+        preview_note=f"Moving: {FEW} speeds only; all follow.",
         remarks=_none,
-        code="found = case.assess()\n"
+        code=f"found = case.assess(stations={STATIONS})\n"
         'rb.plots.envelope(found.envelope, "acceleration_z", limit=3.5)\n'
         "rb.plots.utilisation(found.verdicts)\n"
         f'[v.value for v in found.verdicts if v.clause.title == "{_LIMIT}"][0]  # m/s2',
@@ -88,18 +93,23 @@ def own_bridge(case: Case | None = None) -> Panel:
     )  # fmt: skip
 
 
-def _assessed(case: Case, progress: Callable[[str], None] | None) -> Assessment:
-    def between(done: int, of: int) -> None:
-        if progress is not None:
-            progress("")
-
-    return case.assess(progress=between)
+def _assessed(case: Case, progress: Progress | None) -> Any:
+    return case.assess(stations=STATIONS, progress=_between(progress))
 
 
-def _none(case: Case, found: Assessment) -> Sequence[Remark]:
+def _at_a_few_speeds(case: Case, progress: Progress | None) -> Any:
+    return case.assess(speeds=FEW, stations=STATIONS, progress=_between(progress))
+
+
+def _between(progress: Progress | None) -> Callable[[int, int], None] | None:
+    """Return what a study calls between its chunks, so that it can be given up there."""
+    return None if progress is None else lambda done, of: progress("")
+
+
+def _none(case: Case, found: Any) -> Sequence[Remark]:
     """Return no remarks: what is doubtful stands in the verdicts."""
     return ()
 
 
-def _acceleration(found: Assessment) -> Any:
+def _acceleration(found: Any) -> Any:
     return next(row for row in found.verdicts if row.clause.title == _LIMIT)
