@@ -104,3 +104,14 @@ def test_a_file_that_is_there_is_left_alone(tmp_path):
     with pytest.raises(InputError, match=r"train\.name"):
         bridge().write(tmp_path / "other.toml", {"name": "no train"})
     assert [p.name for p in tmp_path.iterdir()] == ["mine.toml"]
+
+
+@pytest.mark.parametrize(
+    ("frequency", "more"),
+    [(0.5, {}), (1.0, {}), (6.0, {}), (14.0, {}),
+     (4.0, {"torsional_stiffness": 3e10, "polar_inertia": 4e4})],
+)  # fmt: skip
+def test_the_deck_has_all_modes_that_accelerations_are_asked_of(frequency, more):
+    deck = SimpleBridge(**GIVEN, frequency=frequency, **more).case().deck
+    kept = rb.codes.kept_modes(deck.frequencies_hz)
+    assert kept.complete and kept.limit.decided

@@ -48,6 +48,11 @@ def speeds_and_waves():
     return xr.Dataset(variables, {"train": ["A1", "A2"], "speed": [40.0, 50.0, 60.0]})
 
 
+def judged():
+    limit = rb.codes.acceleration_limit("ballasted")
+    return rb.codes.Verdicts([rb.codes.judge(value, limit) for value in (1.0, 4.0, None)])
+
+
 @pytest.fixture(scope="module")
 def figures(case, run):
     """One call of every figure, by name."""
@@ -91,6 +96,7 @@ def figures(case, run):
         "vehicle": lambda: plots.vehicle(car),
         "vehicle_mode": lambda: plots.vehicle_mode(car, 4),
         "velocity": lambda: plots.velocity(run, 18.0),
+        "utilisation": lambda: plots.utilisation(judged()),
         "wave_shares": lambda: plots.wave_shares(drawn, sag, 0.5),
         "wheel_force": lambda: plots.wheel_force(run),
         "wheel_forces": lambda: plots.wheel_forces(run, 2),
@@ -139,6 +145,7 @@ LABELS = {
     "vehicle": (["x (m)", "y (m)"], ["height, schematic", "y (m)"]),
     "vehicle_mode": (["x (m)", "y (m)"], ["height, schematic", "y (m)"]),
     "velocity": ([TIME], ["vertical velocity (mm/s)"]),
+    "utilisation": (["utilisation, value / limit (-)"], []),
     "wave_shares": (["waves up to this length (m)"], ["share of the variance"]),
     "wheel_force": ([TIME], ["wheel force on the deck (kN)"]),
     "wheel_forces": ([TIME], ["force (kN)"]),

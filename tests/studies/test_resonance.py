@@ -93,3 +93,13 @@ def test_nothing_is_said_where_the_formula_divides_by_nothing():
 def test_where_it_does_not_apply():
     two = rb.Beam("two", (20.0, 20.0), MU, EI).deck(modes=2, damping=0.01)
     assert residual_acceleration(two, rb.train("HSLM-A1"), np.array([50.0])) is None
+
+
+def test_a_heavy_mass_at_one_place_is_no_uniform_beam():
+    heavy = rb.Beam("heavy", (L,), MU, EI, point_masses=(rb.PointMass(L / 2, 0.2 * MU * L),))
+    speeds = np.array([50.0])
+    assert (
+        residual_acceleration(heavy.deck(modes=2, damping=0.01), rb.train("ICE2"), speeds) is None
+    )
+    light = rb.Beam("light", (L,), MU, EI, point_masses=(rb.PointMass(L / 2, 0.001 * MU * L),))
+    assert residual_acceleration(light.deck(modes=2, damping=0.01), rb.train("ICE2"), speeds) > 0.0

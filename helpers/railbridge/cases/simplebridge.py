@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 
 from .. import errors
 from ..codes import DAMPING, damping_lower_bound
+from ..cutoffs import EN1990_LEAST
 from ..decks import RATIO
 from ..errors import InputError, Range, check_fields
 from . import staging
@@ -35,6 +36,7 @@ _Spacing = Annotated[float, Range(above=0.0, most=20.0, unit="m")]
 _Ratio = Annotated[float, RATIO]
 _Twist = Annotated[float, Range(above=0.0, unit="N m2")]
 _Inertia = Annotated[float, Range(above=0.0, unit="kg m")]
+_LEAST_MODES = 6
 _SAYS_STIFFNESS = (("bending_stiffness",), ("youngs_modulus", "second_moment"), ("frequency",))
 _REMEDY = "Give bending_stiffness, or youngs_modulus and second_moment, or frequency"
 
@@ -134,6 +136,15 @@ class SimpleBridge:
             return self.damping
         return float(damping_lower_bound(self.kind, self.span))
 
+    @property
+    def modes(self) -> int:
+        """How many modes the deck has: those that accelerations are asked of, and more.
+
+        Of bending alone f_n = n^2 f1, and EN 1990 asks for those up to max(30 Hz, 1.5 f1, f3).
+        """
+        bending = max(_LEAST_MODES, math.ceil(math.sqrt(EN1990_LEAST / self.first_frequency)) + 1)
+        return bending if self.torsional_stiffness is None else 2 * bending
+
     # ---- as a case
 
     def content(
@@ -154,6 +165,7 @@ class SimpleBridge:
             "bending_stiffness_vertical": self.stiffness,
             "mass": self.mass,
             "damping": {"modal": self.damping_ratio},
+            "modes": self.modes,
         }
         if self.torsional_stiffness is not None:
             deck["torsional_stiffness"] = self.torsional_stiffness
@@ -226,6 +238,7 @@ _MEANT = {
     "deck.bending_stiffness_vertical": "E I, N m2",
     "deck.mass": "kg/m",
     "deck.damping": "of critical, every mode",
+    "deck.modes": "the lowest that loads can excite",
     "deck.torsional_stiffness": "G J, N m2",
     "deck.polar_inertia": "kg m2 per m",
     "deck.tracks": "m left of the deck axis",

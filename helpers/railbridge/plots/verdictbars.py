@@ -16,6 +16,9 @@ __all__ = ["utilisation"]
 _COLOURS = {"met": "#009E73", "not met": "#D55E00", "cannot decide": GREY}
 _END = 2.0
 """Where bars are cut: what is used twice over is not met, however much more it is."""
+_SHOWN = {"m": ("mm", 1e3), "rad": ("mrad", 1e3), "N": ("kN", 1e-3), "N m": ("kN m", 1e-3)}
+_LONG = 1.0
+"""m, from which on lengths are shown as they are."""
 _ROW = 0.3
 """Inches of a row in a figure of its own."""
 
@@ -63,5 +66,8 @@ def _in_words(row: Verdict) -> str:
     """Return verdict, value and limit in a few words."""
     if row.verdict == "cannot decide":
         return row.verdict
-    unit = f" {row.clause.unit}" if row.clause.unit else ""
-    return literal(f"{row.verdict}: {row.value:.3g}, {row.clause.sense} {row.limit:.3g}{unit}")
+    unit, factor = _SHOWN.get(row.clause.unit, (row.clause.unit, 1.0))
+    if unit == "mm" and row.limit >= _LONG:
+        unit, factor = "m", 1.0
+    value, limit = (f"{factor * number:.4g}" for number in (row.value, row.limit))
+    return literal(f"{row.verdict}: {value}, {row.clause.sense} {limit} {unit}".rstrip())
