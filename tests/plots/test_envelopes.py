@@ -42,7 +42,7 @@ def legend(ax):
 def test_a_line_for_each_train_and_the_worst_is_named_with_its_speed():
     ax = plots.envelope(study(), "acceleration_z")
     lines = drawn(ax)
-    for i, name in enumerate(("A1", "A2")):
+    for i in range(2):
         assert np.allclose(lines[f"train {i + 1}"].get_data(), [SPEEDS, A[i]])
         assert np.allclose(lines[f"signature {i + 1}"].get_ydata(), 0.9 * A[i])
     assert "A2: 4 m/s² at 60 m/s, 216 km/h" in words(ax)
