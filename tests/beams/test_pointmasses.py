@@ -123,6 +123,15 @@ def test_modes_are_mass_normalised_and_their_energies_add_up(own, centroid):
     assert all(np.all(modes.energies[name] > -1e-9) for name in FIELDS)
 
 
+def test_a_mass_in_the_axis_moves_in_each_direction_alone():
+    modes = loaded(SIMPLE, rb.PointMass(18.0, 3e5, roll_inertia=1e5)).modes
+    shares = np.array([modes.energies[name][:8] for name in FIELDS])
+    assert shares.max(axis=0) == pytest.approx(np.ones(8))
+    found = dict(zip(modes.names, modes.frequencies_hz, strict=True))
+    ratio = found["lateral bending 1"] / found["vertical bending 1"]
+    assert ratio == pytest.approx(np.sqrt(EIZ / EI), rel=1e-9)
+
+
 def test_names_and_kept_modes_of_a_beam_that_is_rigid_lengthwise():
     beam = loaded(VERTICAL, rb.PointMass(9.0, 5e4, y=2.0, z=1.5))
     assert beam.modes.names[:3] == tuple(f"vertical bending {i}" for i in (1, 2, 3))
