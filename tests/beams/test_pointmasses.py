@@ -271,6 +271,9 @@ def test_a_mass_off_the_deck_at_a_joint_or_too_near_is_refused_by_its_number():
 def test_masses_stand_on_nodes_and_those_that_miss_one_by_rounding_are_put_there():
     spans = rb.Beam("b", (12.1, 12.2, 12.3), M, EI, point_masses=(rb.PointMass(12.1 + 12.2, 1e3),))
     assert spans.point_masses[0].x == spans.required_nodes[2]
+    inner = tuple(rb.Bearing(x, ("z",)) for x in (0.0, 10.1 + 10.2, L))
+    beside = rb.Beam("b", (L,), M, EI, bearings=inner, point_masses=(rb.PointMass(20.3, 1e3),))
+    assert 20.3 != 10.1 + 10.2 == beside.point_masses[0].x
     own = loaded(replace(SIMPLE, elements=4), rb.PointMass(5.0, 1e3), rb.PointMass(5.3, 1e3))
     assert {5.0, 5.3} <= set(own.mesh.nodes)
     assert len(SIMPLE.mesh.h) == len(loaded(SIMPLE, rb.PointMass(18.0, 1.0)).mesh.h) == 40
