@@ -128,6 +128,12 @@ def test_what_is_no_pier_or_hardly_one_is_refused():
         rb.Bearing(0.0, pier=replace(PIER, height=1e-7))
 
 
+def test_a_pier_that_holds_nothing_leaves_a_mechanism():
+    ends = rb.Bearing(0.0, ("z",)), rb.Bearing(L, ("z",), pier=replace(PIER, youngs_modulus=1e-6))
+    with pytest.raises(rb.InputError, match="^bearings = .*pitching, so it is a mechanism"):
+        rb.Beam("b", (L,), M, EI, bearings=ends)
+
+
 def test_a_pier_below_the_joint_of_simple_spans_must_say_which_span_it_carries():
     middle = rb.Bearing(L, ("x", "y", "z"), pier=PIER)
     with pytest.raises(rb.InputError, match=r"^bearings\[2\]\.span: is missing: two simple spans"):

@@ -123,6 +123,15 @@ def test_modes_are_mass_normalised_and_their_energies_add_up(own, centroid):
     assert all(np.all(modes.energies[name] > -1e-9) for name in FIELDS)
 
 
+def test_a_mass_in_the_axis_moves_in_each_direction_alone():
+    modes = loaded(SIMPLE, rb.PointMass(18.0, 3e5, roll_inertia=1e5)).modes
+    shares = np.array([modes.energies[name][:8] for name in FIELDS])
+    assert shares.max(axis=0) == pytest.approx(np.ones(8))
+    found = dict(zip(modes.names, modes.frequencies_hz, strict=True))
+    ratio = found["lateral bending 1"] / found["vertical bending 1"]
+    assert ratio == pytest.approx(np.sqrt(EIZ / EI), rel=1e-9)
+
+
 def test_names_and_kept_modes_of_a_beam_that_is_rigid_lengthwise():
     beam = loaded(VERTICAL, rb.PointMass(9.0, 5e4, y=2.0, z=1.5))
     assert beam.modes.names[:3] == tuple(f"vertical bending {i}" for i in (1, 2, 3))
@@ -262,6 +271,9 @@ def test_a_mass_off_the_deck_at_a_joint_or_too_near_is_refused_by_its_number():
 def test_masses_stand_on_nodes_and_those_that_miss_one_by_rounding_are_put_there():
     spans = rb.Beam("b", (12.1, 12.2, 12.3), M, EI, point_masses=(rb.PointMass(12.1 + 12.2, 1e3),))
     assert spans.point_masses[0].x == spans.required_nodes[2]
+    inner = tuple(rb.Bearing(x, ("z",)) for x in (0.0, 10.1 + 10.2, L))
+    beside = rb.Beam("b", (L,), M, EI, bearings=inner, point_masses=(rb.PointMass(20.3, 1e3),))
+    assert 20.3 != 10.1 + 10.2 == beside.point_masses[0].x
     own = loaded(replace(SIMPLE, elements=4), rb.PointMass(5.0, 1e3), rb.PointMass(5.3, 1e3))
     assert {5.0, 5.3} <= set(own.mesh.nodes)
     assert len(SIMPLE.mesh.h) == len(loaded(SIMPLE, rb.PointMass(18.0, 1.0)).mesh.h) == 40

@@ -187,15 +187,9 @@ class Mesh:
 
     @cached_property
     def _point_rows(self) -> list[tuple[int, list[tuple[float, np.ndarray]]]]:
-        """Of each point mass its node, and inertias with the rows of their motions, shape (6,).
-
-        Freedoms that the beam lacks are at rest.
-        """
-        present, z = np.isin(np.arange(6), self._present), self.beam.centroid_height
-        return [
-            (self.node(own.x), [(m, row * present) for m, row in own.parts(z)])
-            for own in self.beam.point_masses
-        ]
+        """Of each point mass its node, and inertias with the rows of their motions, shape (6,)."""
+        z = self.beam.centroid_height
+        return [(self.node(own.x), own.parts(z)) for own in self.beam.point_masses]
 
     @property
     def _point_masses(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
