@@ -15,7 +15,8 @@ from ..decks import Deck
 from ..errors import brief
 from ..results import Crossing
 from ..settings import check
-from ..studies import Between, Crossings, Row, Store, crossings, row_of_run
+from ..studies import Between, Row, Store, crossings, row_of_run
+from ..studies.envelopes import Crossings
 from ..tracks import Level, Track
 from ..trains import AnyTrain, AxleTrain
 from .judging import Finding, Point, Points

@@ -9,7 +9,6 @@ from .engine import NUMBERS, Asked, Job, Row, asked_of, respond, row_of_run
 from .ensembles import Ensemble
 from .envelopes import (
     QUANTITIES,
-    Crossings,
     checked_speeds,
     crossings,
     named_trains,
@@ -39,10 +38,10 @@ from .study import CHUNK, CHUNK_OF_LOADS, Point, carry_out, chunked, remaining
 from .unitwaves import UnitWaves, unit_waves, wave_forces
 
 __all__ = [
-    "Asked", "Between", "CHUNK", "CHUNK_OF_LOADS", "Crossings", "Dimension", "Ensemble",
-    "Extreme", "Job", "MemoryStore", "NUMBERS", "OUTPUTS", "Output", "PeakFactor", "Percentile",
-    "Point", "QUANTITIES", "RandomResponse", "Row", "Share", "Statistics", "Store", "UnitWaves",
-    "WIDTH", "WORTH", "WorkerDiedError", "advance_of", "asked_of", "carry_out", "checked_speeds",
+    "Asked", "Between", "CHUNK", "CHUNK_OF_LOADS", "Dimension", "Ensemble", "Extreme", "Job",
+    "MemoryStore", "NUMBERS", "OUTPUTS", "Output", "PeakFactor", "Percentile", "Point",
+    "QUANTITIES", "RandomResponse", "Row", "Share", "Statistics", "Store", "UnitWaves", "WIDTH",
+    "WORTH", "WorkerDiedError", "advance_of", "asked_of", "carry_out", "checked_speeds",
     "chunked", "compute_response", "crossings", "dataset", "davenport", "describe", "eligible",
     "exceedance", "extreme", "fingerprint", "mixture_key", "named_trains", "needed",
     "needed_for_mean", "needed_for_percentile", "outputs_at", "print_of_crossing",
