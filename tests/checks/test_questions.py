@@ -73,4 +73,15 @@ def test_a_force_at_the_tip_of_an_overhang_lifts_the_other_end():
     assert first.words == "bearing 1 at x = 0, y = 0 m"
     assert first.output.line.influence(np.array([26.0]))[0, 0, 1] == pytest.approx(6 / 20)
     assert first.self_weight == pytest.approx(1e4 * 9.80665 * 26 * 7 / 20, rel=1e-3)
+    assert not first.hides, "a deck that is rigid in twist has no couple to hold"
     assert second.self_weight == pytest.approx(1e4 * 9.80665 * 26 * 13 / 20, rel=1e-3)
+
+
+def test_what_holds_the_twist_beside_single_bearings_hides_them():
+    pads = tuple(rb.Bearing(x, ("y", "z"), y=y) for x in (0.0, L) for y in (-2.0, 2.0))
+    assert [b.hides for b in questions(bearings=pads).bearings] == [False] * 4
+    held = (*pads, rb.Bearing(L, ("roll",)))
+    found = questions(bearings=held).bearings
+    assert [b.words[:9] for b in found] == [f"bearing {n}" for n in (1, 2, 3, 4)]
+    assert [b.hides for b in found] == [False, False, True, True]
+    assert [b.hides for b in questions().bearings] == [True, True]

@@ -7,7 +7,7 @@ from constant_force import SimpleBeam
 import railbridge as rb
 from railbridge.studies import constant
 from railbridge.studies.constant import constant_loads, place_step
-from railbridge.studies.outputs import outputs_at, peaks_of_run
+from railbridge.studies.outputs import outputs_at, peaks_of_run, twist_at
 
 L, MU, EI = 25.0, 15e3, 3.1e10
 RATIO = 0.012
@@ -90,14 +90,7 @@ def test_forces_and_displacements_are_those_of_cross(damping):
         modes=6, damping=damping
     )
     train = rb.AxleTrain((0.0, 3.0, 14.0, 17.0, 40.0, 43.0), (170e3,) * 6)
-    names = (
-        "displacement_z",
-        "rotation_x",
-        "moment_vertical",
-        "shear_vertical",
-        "torsion",
-        "twist",
-    )
+    names = ("displacement_z", "rotation_x", "moment_vertical", "shear_vertical", "torsion")
     outputs = outputs_at(own, names, [L / 2, 6.0])
     found = constant_loads(own, train, [50.0], outputs, track_offset=2.0)
     run = rb.cross(train, own, speed=50.0, track_offset=2.0, time_step=2.5e-4, interaction="rigid")
@@ -108,6 +101,21 @@ def test_forces_and_displacements_are_those_of_cross(damping):
     assert found.largest[0, 1] == pytest.approx(expected.largest[0, 1], rel=5e-4)
     assert found.static[0] == pytest.approx(expected.static[0], rel=3e-3)
     assert found.largest_time[0, 0] == pytest.approx(expected.largest_time[0, 0], abs=2e-3)
+
+
+@pytest.mark.parametrize("damping", [(0.8, 4e-4), 0.02])
+def test_twist_of_the_track_is_that_of_cross(damping):
+    """A difference of rotations 3 m apart, with the modes left out; also across an end."""
+    own = rb.Beam("simple", (L,), MU, EI, torsional_stiffness=2e10, polar_inertia=8e4).deck(
+        modes=6, damping=damping
+    )
+    train = rb.AxleTrain((0.0, 3.0, 14.0, 17.0), (170e3,) * 4)
+    outputs = (twist_at(own, 0.0), twist_at(own, 18.0), twist_at(own, -1.0))
+    found = constant_loads(own, train, [50.0], outputs, track_offset=2.0)
+    run = rb.cross(train, own, speed=50.0, track_offset=2.0, time_step=5e-5, interaction="rigid")
+    expected = peaks_of_run(run, outputs)
+    assert found.largest[0] == pytest.approx(expected.largest[0], rel=1e-3)
+    assert found.static[0] == pytest.approx(expected.static[0], rel=3e-3)
 
 
 def test_speeds_do_not_depend_on_each_other():

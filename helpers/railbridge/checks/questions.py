@@ -33,7 +33,8 @@ class Bearing:
         Where it is.
     output : Output
     hides : bool
-        Whether it holds the deck against twist, so that it stands for several bearings.
+        Whether the deck is held against twist at its place otherwise than by forces of bearings
+        side by side, so that it stands for several of them.
     """
 
     words: str
@@ -139,21 +140,23 @@ class Questions:
         if recovery.lacks:
             return ()
         if deck.bearings:
-            own = [
-                (f"bearing {n} at x = {x:g}, y = {y:g} m", x,
-                 recovery.bearing(n, "force_z"), recovery.bearing(n, "moment_x"))
-                for n, (x, y, _) in enumerate(deck.bearings, start=1)
-            ]  # fmt: skip
+            words = [f"bearing {n} at x = {x:g}, y = {y:g} m"
+                     for n, (x, y, _) in enumerate(deck.bearings, start=1)]  # fmt: skip
+            places = [x for x, _, _ in deck.bearings]
+            up, couple = (
+                [recovery.bearing(n + 1, name) for n in range(len(places))]
+                for name in ("force_z", "moment_x")
+            )
         else:
-            own = [
-                (f"bearings at x = {x:g} m", x,
-                 recovery.reaction("force_z", x), recovery.reaction("moment_x", x))
-                for x in deck.supports
-            ]  # fmt: skip
+            words, places = [f"bearings at x = {x:g} m" for x in deck.supports], deck.supports
+            up, couple = (
+                [recovery.reaction(name, x) for x in places] for name in ("force_z", "moment_x")
+            )
+        held = {x for x, line in zip(places, couple, strict=True) if line is not None}
         return tuple(
-            Bearing(words, Output("force_z", x, up.modal, up), couple is not None)
-            for words, x, up, couple in own
-            if up is not None
+            Bearing(said, Output("force_z", x, line.modal, line), x in held)
+            for said, x, line in zip(words, places, up, strict=True)
+            if line is not None
         )
 
     @cached_property

@@ -22,6 +22,7 @@ __all__ = ["TrainClauses"]
 _NO_CROSSING = "no crossing was computed"
 _SIDEWAYS = "rigid sideways in this model: give the deck a lateral bending stiffness"
 _OTHER_LOADS = "of the trains' own forces only: wind, nosing and centrifugal forces are not in it"
+_PERFECT = "on a perfect track: give its irregularity"
 _STRAIGHT = 1e-9
 """1/m: a deck bent less has a radius of no interest."""
 
@@ -189,14 +190,22 @@ class TrainClauses:
         needs = self.structure.needs
         limit = codes.comfort_limit(needs.comfort)
         slow = points.only([not_above(p.speed, needs.line_speed) for p in points.points])
-        return self._of_cars(slow, "body_acceleration_z", limit, "up to the speed of the line")
+        reason = "up to the speed of the line" + ", on a perfect track" * self.smooth
+        return self._of_cars(slow, "body_acceleration_z", limit, reason)
 
     def unloading(self, points: Points) -> Finding:
-        """Judge by which share of its static load a wheel is unloaded."""
-        return self._of_cars(points, "wheel_unloading", codes.wheel_unloading_limit(), "")
+        """Judge by which share of its static load a wheel is unloaded.
 
-    def _of_cars(self, points: Points, name: str, limit: Answer, reason: str) -> Finding:
-        gaps = self._gaps(points)
+        Never met on a perfect track: what unloads wheels most is the track's irregularity.
+        """
+        limit = codes.wheel_unloading_limit()
+        perfect = [_PERFECT] if self.smooth and any(p.cars for p in points.points) else []
+        return self._of_cars(points, "wheel_unloading", limit, "", perfect)
+
+    def _of_cars(
+        self, points: Points, name: str, limit: Answer, reason: str, more: Sequence[str] = ()
+    ) -> Finding:
+        gaps = [*self._gaps(points), *more]
         bare = list(dict.fromkeys(point.train for point in points.points if not point.cars))
         if bare:
             gaps.append(f"{counted(bare, 4)}: only axle loads, no cars")
