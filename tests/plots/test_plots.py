@@ -348,6 +348,17 @@ def test_spectra_titles_give_equation_3(run):
     assert titles[2] == f"i = 2, Eq. 3: {run.deviations.from_rigid[1]:+.3f} %"
 
 
+def test_spectra_on_level_track_are_seen_whole_and_have_no_equation_3(run):
+    """The rigid deck's force is constant there: the others stood cut off in its scale."""
+    level = rb.cross(run.train, run.deck, speed=60.0, time_step=4e-3, iterations=2)
+    axes = plots.spectra(level)
+    assert [ax.get_title(loc="left") for ax in axes] == ["i = 0, rigid deck", "i = 1", "i = 2"]
+    highest = 1e-3 * max(level.at(i).spectrum.amplitude.max() for i in (1, 2))
+    assert highest > 0.1
+    for ax in axes:
+        assert ax.get_ylim()[0] == 0.0 and ax.get_ylim()[1] == pytest.approx(1.05 * highest)
+
+
 def labelled(ax, label):
     return next(line for line in ax.lines if line.get_label() == label)
 
