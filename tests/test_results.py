@@ -281,3 +281,34 @@ def test_the_envelope_of_shear_is_met_on_both_sides_of_an_axle():
     assert [turned.values[0].max(), -turned.values[1].min()] == pytest.approx(
         [largest] * 2, rel=2e-3
     )
+
+
+def test_front_and_rear_of_a_body_move_as_its_bounce_and_pitch_say():
+    """u at x ahead of the centre of mass: z - x pitch and y + x yaw, differentiated twice."""
+    own, motion = RUN.car_accelerations(2), RUN.car_motion(2)
+    assert list(own.values)[:2] == ["front acceleration_y", "front acceleration_z"]
+    assert own.where == "car 2" and set(own.units.values()) == {"m/s2"}
+    vehicle = RUN.train.vehicles[1]
+    for body, place, x in vehicle.body_places:
+        x -= body.position[0]
+        for way, turn, sign in (("z", "pitch", -1.0), ("y", "yaw", 1.0)):
+            moved = motion[f"car {way}"] + sign * x * motion[f"car {turn}"]
+            twice = np.diff(moved, 2) / RUN.settings.time_step**2
+            told = own[f"{place} acceleration_{way}"][1:-1]
+            assert twice == pytest.approx(told, abs=0.02 * np.abs(told).max())
+    assert {place: x for _, place, x in vehicle.body_places} == {
+        "front": pytest.approx(7.8), "middle": 0.0, "rear": pytest.approx(-7.8),
+    }  # fmt: skip
+
+
+def test_bodies_that_cannot_move_sideways_and_loads_without_bodies():
+    planar = rb.cross(rb.Train(rb.vehicle("xia2000_planar")), DECK, speed=20.0, time_step=4e-3)
+    own = planar.car_accelerations()
+    assert np.isnan(own["rear acceleration_y"]).all()
+    assert np.isfinite(own["rear acceleration_z"]).all()
+    assert "front acceleration_z (m/s2)" in own.to_frame().columns
+    with pytest.raises(rb.InputError, match="car = 1: bare axle loads"):
+        OFF_AXIS.car_accelerations()
+    for wrong in (0, 3, None, "1"):
+        with pytest.raises(rb.InputError, match="^car"):
+            RUN.car_accelerations(wrong)

@@ -24,11 +24,12 @@ from .decks import (
 )
 from .direct import on_rigid_deck
 from .errors import InputError, brief, frozen
+from .percar import PerCar, of_car
 from .settings import STATIONS, Settings
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .statics import MovingLoads, static_extremes
 from .tracks import Track
-from .trains import CONDENSED, AnyTrain
+from .trains import CONDENSED, AnyTrain, Car
 from .windows import Windows
 
 __all__ = ["ENVELOPE", "Crossing", "Deviations", "Envelope"]
@@ -306,6 +307,30 @@ class Crossing:
             car[: len(own)] = own
         return frozen(result)
 
+    def car_accelerations(self, car: int = 1) -> History:
+        """Return the accelerations of one car's body, m/s2, front, middle and rear.
+
+        Over the whole record, by names such as "front acceleration_z", lateral and vertical, at
+        `Vehicle.body_places`; of an articulated train those of every coach, whose name then stands
+        in front. NaN the way a body cannot move.
+
+        Raises
+        ------
+        InputError
+            No such car, or bare axle loads, which have no bodies.
+        """
+        own = self._car_with_bodies(car)
+        places, values = own.vehicle.body_places, {}
+        moved = self.body_accelerations[own.number - 1][: len(places)]
+        several = len({body.name for body, _, _ in places}) > 1
+        nothing = np.full(len(self.time), np.nan)
+        for (body, place, _), (y, z) in zip(places, moved, strict=True):
+            named = f"{body.name} {place}" if several else place
+            for way, turn, found in (("y", "yaw", y), ("z", "pitch", z)):
+                moves = {way, turn}.intersection(body.freedoms)
+                values[f"{named} acceleration_{way}"] = found if moves else nothing
+        return History(self.time, values, dict.fromkeys(values, "m/s2"), f"car {own.number}")
+
     def car_motion(self, car: int = 1) -> History:
         """Return the motion of every freedom of a car about its place at rest, m and rad.
 
@@ -316,9 +341,7 @@ class Crossing:
         InputError
             No such car, or bare axle loads, which do not move.
         """
-        own = self.train.car(car)
-        if own.vehicle is None:
-            raise InputError("car", car, "bare axle loads have no bodies that move")
+        own = self._car_with_bodies(car)
         passage, more = self.settings.passage, self.coupling.more
         motion = self.train.rigid_motion(self.track, passage, more)[car - 1]
         if self.iteration > 0:
@@ -326,6 +349,12 @@ class Crossing:
         values = dict(zip(own.vehicle.labels, motion[:, 0], strict=True))
         units = {name: "m" if name[-2:] in (" y", " z") else "rad" for name in values}
         return History(self.time, values, units, f"car {car}")
+
+    def _car_with_bodies(self, car: int) -> Car:
+        own = self.train.car(car)
+        if own.vehicle is None:
+            raise InputError("car", car, "bare axle loads have no bodies that move")
+        return own
 
     def car_forces(self, car: int = 1, at: str = "track", static: bool = True) -> History:
         """Return one car's wheel forces condensed to five components (Figures 9 to 11).
@@ -350,6 +379,21 @@ class Crossing:
         values = own.condensed(forces, at)
         units = {c: "N" if c.startswith("force") else "N m" for c in CONDENSED}
         return History(self.time, values, units, f"car {car}")
+
+    @cached_property
+    def per_car(self) -> PerCar:
+        """Extremes of wheel forces, unloading and body accelerations of every car.
+
+        ``run.per_car.to_frame()`` has a row a car. Empty for bare axle loads.
+        """
+        first, found = 0, []
+        for car in self.train.formation:
+            own = slice(first, first + len(car.wheels))
+            first = own.stop
+            if car.vehicle is not None:
+                wheels = self.wheel_forces[own], self.wheel_unloading[own], self.on_deck[own]
+                found.append(of_car(car, *wheels, self.car_accelerations(car.number)))
+        return PerCar(tuple(found))
 
     # ---- the deck's motion
 

@@ -1,5 +1,6 @@
 """The summary says what the crossing holds, with place and time, and statics stands beside it."""
 
+import csv
 import dataclasses
 import json
 import math
@@ -18,7 +19,8 @@ from railbridge.settings import bytes_needed
 KEYS = {
     "vehicle_frequencies_hz", "deck_frequencies_hz", "deck_mode_names", "remarks", "converged",
     "iterations", "windows", "changes", "deviation_percent", "run", "wheel_force_z",
-    "wheel_unloading", "points", "envelope", "reactions", "car_body", "self_weight",
+    "wheel_force_y", "wheel_unloading", "points", "envelope", "reactions", "car_body", "cars",
+    "self_weight",
 }  # fmt: skip
 COARSE = {
     "train.cars": 1,
@@ -191,6 +193,45 @@ def test_what_is_not_there_is_null_not_zero(plain_deck):
     assert summary["car_body"] == {"acceleration_z": None, "acceleration_y": None}
     assert summary["vehicle_frequencies_hz"] == []
     assert summary["wheel_unloading"]["max"]["value"] == 0.0
+    assert summary["wheel_force_y"] is None and summary["cars"] == []
+    tables = {t.name: t for t in histories(plain_deck.run(), [10.0])}
+    assert tables["cars"].columns == ["t"]
+    lines = "".join(tables["cars"].rows()).splitlines()
+    assert lines[0] == "t" and len(lines) == 1 + summary["run"]["samples"]
+
+
+def test_lateral_wheel_forces_have_their_car_and_wheel(run, found):
+    forces = run.wheel_forces[:, 0]
+    told = found["wheel_force_y"]
+    for side, pick in (("min", np.min), ("max", np.max)):
+        one = told[side]
+        wheel, sample = one["wheel"] - 1, np.argmin(np.abs(run.time - one["t"]))
+        assert one["value"] == pick(forces) == forces[wheel, sample] and one["car"] == 1
+        assert told["on_deck"][side]["value"] == pick(forces[run.on_deck])
+    assert abs(told["min"]["value"]) > 100.0
+
+
+def test_the_worst_of_all_cars_is_the_worst_of_one():
+    case = rb.case("paper").replace({**COARSE, "train.cars": 3})
+    summary = case.summary()
+    assert [entry["car"] for entry in summary["cars"]] == [1, 2, 3]
+    assert {entry["vehicle"] for entry in summary["cars"]} == {"xia2000"}
+    for name in ("wheel_force_z", "wheel_force_y"):
+        for key in (None, "on_deck"):
+            whole = summary[name][key] if key else summary[name]
+            own = [e[name][key] if key else e[name] for e in summary["cars"]]
+            for side, pick in (("min", min), ("max", max)):
+                worst = pick(own, key=lambda each: each[side]["value"])[side]
+                expected = {**worst, "car": 1 + [o[side] for o in own].index(worst)}
+                assert {k: whole[side][k] for k in ("value", "t", "car", "wheel")} == expected
+    for name in ("acceleration_z", "acceleration_y"):
+        for side, pick in (("min", min), ("max", max)):
+            values = [entry[name][side]["value"] for entry in summary["cars"]]
+            told = summary["car_body"][name][side]
+            assert told["value"] == pick(values)
+            assert told["car"] == 1 + values.index(told["value"])
+            own = summary["cars"][told["car"] - 1][name][side]
+            assert told == {**own, "car": told["car"]}
 
 
 @pytest.mark.parametrize("interaction", ["rigid", "direct"])
@@ -258,11 +299,21 @@ def test_every_coach_of_an_articulated_train_is_told():
     assert told["max"]["car"] == worst[0] + 1
     assert told["max"]["place"] == ("front", "middle", "rear")[worst[1] % 3]
     assert told["max"].get("body") == (f"c{worst[1] // 3}" if worst[0] == 0 else None)
+    own = run.car_accelerations(1)
+    assert list(own.values)[6:8] == ["c1 front acceleration_y", "c1 front acceleration_z"]
+    assert np.array_equal(own["c2 rear acceleration_z"], found[0, 8, 1])
+    assert np.isnan(own["c1 front acceleration_y"]).all()
+    first, second = summarize(run, [18.0])["cars"]
+    worst = int(np.argmax(found[0, :, 1].max(axis=1)))
+    assert first["acceleration_z"]["max"]["body"] == f"c{worst // 3}"
+    assert "body" not in second["acceleration_z"]["max"] and first["acceleration_y"] is None
+    columns = next(t for t in histories(run, [18.0]) if t.name == "cars").columns
+    assert columns[1] == "car 1 c0 front acceleration_z (m/s2)" and len(columns) == 1 + 9 + 3
 
 
 def test_histories_start_with_t_and_name_their_units(run):
     tables = {t.name: t for t in histories(run, [9.0, 18.0])}
-    assert list(tables) == ["points", "wheels", "reactions", "iterations"]
+    assert list(tables) == ["points", "wheels", "cars", "reactions", "iterations"]
     for table in tables.values():
         assert table.columns[0] == "t"
         assert all(c.endswith(")") for c in table.columns[1:])
@@ -275,12 +326,22 @@ def test_histories_start_with_t_and_name_their_units(run):
     turned = points.values[points.columns.index("x=9 rotation_y (rad)")]
     assert np.array_equal(turned, run.rotations(9.0)["rotation_y"])
     assert len(tables["wheels"].columns) == 1 + 2 * 8
+    ways = [f"car 1 {place} acceleration_{way} (m/s2)"
+            for place in ("front", "middle", "rear") for way in "yz"]  # fmt: skip
+    assert tables["cars"].columns == ["t", *ways]
+    assert np.array_equal(tables["cars"].values[1:], run.body_accelerations[0].reshape(6, -1))
     assert len(tables["iterations"].columns) == 2 + run.iterations
     assert np.allclose(tables["iterations"].values[-1], run.displacement(9.0)["displacement_z"])
     lines = "".join(tables["reactions"].rows(chunk=7)).splitlines()
     read = np.array([line.split(",") for line in lines[1:]], dtype=float)
     assert read.shape == (len(run.time), len(lines[0].split(",")))
     assert np.allclose(read[:, 2], tables["reactions"].values[2], rtol=1e-8)
+
+
+def test_a_name_with_a_comma_stays_one_column():
+    table = summary.HistoryTable("cars", ["t", 'car 1 a, "b" front (m/s2)'], [np.zeros(2)] * 2)
+    rows = list(csv.reader("".join(table.rows()).splitlines()))
+    assert rows == [table.columns, ["0", "0"], ["0", "0"]]
 
 
 def test_a_run_that_blew_up_is_still_written():

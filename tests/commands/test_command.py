@@ -48,7 +48,9 @@ tolerance = 1e-3
 [output]
 points = [6.0]
 """
-FILES = {"summary.json", "points.csv", "wheels.csv", "reactions.csv", "iterations.csv"}
+FILES = {
+    "summary.json", "points.csv", "wheels.csv", "cars.csv", "reactions.csv", "iterations.csv",
+}  # fmt: skip
 
 
 @pytest.fixture

@@ -67,9 +67,11 @@ def figures(case, run):
         "acceleration": lambda: plots.acceleration(run, 18.0),
         "assurance": lambda: plots.assurance(np.eye(3), ("a", "b", "c"), ("d", "e", "f")),
         "box_section": lambda: plots.box_section(box(), box().section),
+        "car_body": lambda: plots.car_body(run, 2),
         "car_forces": lambda: plots.car_forces(run, steady={"force_z": 75.8e3}),
         "convergence": lambda: plots.convergence(run),
         "damping": lambda: plots.damping(1.0364, 4.87e-4, {"second bending": 13.23}),
+        "deck_envelope": lambda: plots.deck_envelope(run),
         "deck_mode": lambda: plots.deck_mode(deck, 3),
         "deck_modes": lambda: plots.deck_modes(deck),
         "deviations": lambda: plots.deviations({"condensed": run}),
@@ -115,10 +117,12 @@ LABELS = {
     "acceleration": ([TIME], ["vertical acceleration (m/s²)"]),
     "assurance": (["mode of the beam (-)"], ["mode of the shell"]),
     "box_section": (["y, to the left (m)"], ["height above the underside (m)"]),
+    "car_body": ([TIME], ["vertical acceleration (m/s²)", "lateral acceleration (m/s²)"]),
     "car_forces": ([TIME], ["lateral force (kN)", "vertical force (kN)", "roll moment (kN m)",
                             "pitch moment (kN m)", "yaw moment (kN m)"]),
     "convergence": (["iteration"], ["change of the wheel forces (-)"]),
     "damping": ([HERTZ], ["damping ratio (%)"]),
+    "deck_envelope": ([PLACE], ["vertical displacement (mm)"]),
     "deck_mode": ([PLACE], ["shape (-)"]),
     "deck_modes": ([PLACE], ["shape (-)"]),
     "deviations": (["iteration"], ["deviation, Eq. 3 (%)"]),
@@ -224,6 +228,91 @@ def test_displays_are_in_kn_and_mm(run):
     assert np.all(kn < 0)
 
 
+def test_a_body_s_accelerations_stand_under_their_places(run):
+    for ax, way in zip(plots.car_body(run, 2), "zy", strict=True):
+        own = run.car_accelerations(2)
+        lines = {line.get_gid(): line.get_ydata() for line in ax.lines}
+        assert {name: list(y) for name, y in lines.items()} == {
+            place: list(own[f"{place} acceleration_{way}"]) for place in ("front", "middle", "rear")
+        }
+    (ax,) = plots.car_body(run, 1, components=("acceleration_y",))
+    assert "lateral" in ax.get_ylabel() and ax.get_xlabel() == TIME
+    assert [t.get_text() for t in ax.get_legend().get_texts()] == [
+        "car 1 on the deck", "front", "middle", "rear",
+    ]  # fmt: skip
+
+
+def test_a_planar_car_has_no_lateral_curves():
+    track = rb.Track(vertical=rb.Harmonic(1e-3, 10.0))
+    run = rb.cross(
+        rb.Train(rb.vehicle("xia2000_planar")), rb.deck("viaduct36"), track, speed=40.0,
+        time_step=4e-3, interaction="rigid",
+    )  # fmt: skip
+    (ax,) = plots.car_body(run)
+    assert "vertical" in ax.get_ylabel()
+    for ax in plots.wheel_forces(run):
+        assert [line.get_gid() for line in ax.lines] == ["force_z left"]
+    bare = rb.cross(rb.AxleTrain([0.0], [1e5]), run.deck, speed=20.0, time_step=4e-3)
+    for wrong in (lambda: plots.car_body(bare), lambda: plots.car_body(run, 2)):
+        with pytest.raises(rb.InputError, match="^car = "):
+            wrong()
+    with pytest.raises(rb.InputError, match="components = 'acceleration_x'"):
+        plots.car_body(run, components=("acceleration_x",))
+
+
+def test_wheel_forces_can_be_drawn_one_way_in_a_scale_of_their_own(run):
+    for way, word in (("force_y", "lateral"), ("force_z", "vertical")):
+        axes = plots.wheel_forces(run, 2, components=(way,))
+        for ax, axle in zip(axes, run.train.car(2).axles, strict=True):
+            assert ax.get_ylabel().replace("\n", " ") == f"{word} force (kN)"
+            lines = {line.get_gid(): line.get_ydata() for line in ax.lines}
+            assert list(lines) == [f"{way} left", f"{way} right"]
+            for wheel in axle.wheels:
+                drawn = lines[f"{way} {wheel.side}"]
+                assert np.allclose(drawn, 1e-3 * run.wheel_force(2, wheel.number)[way])
+    with pytest.raises(rb.InputError, match="components = 'force_x'"):
+        plots.wheel_forces(run, components=("force_x",))
+
+
+def test_the_envelope_along_a_deck_is_that_of_its_places(run):
+    found = run.envelope("moment_vertical")
+    ax = plots.deck_envelope(run, "moment_vertical")
+    lines = {line.get_gid(): line for line in ax.lines}
+    extremes = [found.at(i).extremes("value") for i in range(len(found.x))]
+    for name, side in (("smallest", 0), ("largest", 1)):
+        values = 1e-3 * np.array([each[side][0] for each in extremes])
+        assert np.array_equal(lines[name].get_xdata(), found.x)
+        assert lines[name].get_ydata() == pytest.approx(values)
+        place = found.x[np.argmin(values) if side == 0 else np.argmax(values)]
+        worst = values.min() if side == 0 else values.max()
+        assert lines[name].get_label() == f"{name} {worst:.4g} kN m at x = {place:g} m"
+    assert list(lines["bearings"].get_xdata()) == [0.0, 36.0]
+    assert min(lines["smallest"].get_ydata()) < -4000
+    bare = replace(run, deck=replace(run.deck, recovery=None, supports=()))
+    with pytest.raises(rb.InputError, match="quantity = 'torsion'"):
+        plots.deck_envelope(bare, "torsion")
+    with pytest.raises(rb.InputError, match="Did you mean 'torsion'"):
+        plots.deck_envelope(run, "torsoin")
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_deck_without_bearing_lines_leaves_room_for_its_curves(run):
+    deck = replace(run.deck, supports=())
+    for ax in (plots.deck_mode(deck, 1), plots.deck_envelope(replace(run, deck=deck))):
+        ax.figure.canvas.draw()
+        assert ax.get_position().height > 0.4
+
+
+def test_every_bearing_line_has_a_curve():
+    spans = rb.deck_from_table("long", {
+        "spans": [20.0] * 10, "bending_stiffness_vertical": 6e10, "mass": 11e3, "modes": 12,
+        "damping": {"modal": 0.02},
+    })  # fmt: skip
+    run = rb.cross(rb.AxleTrain([0.0], [1e5]), spans, speed=60.0, time_step=4e-3)
+    drawn = [line.get_gid() for line in plots.reactions(run).lines]
+    assert drawn == [f"bearing at {20 * i} m" for i in range(11)]
+
+
 def test_steady_amplitudes_stand_around_the_weight_where_it_is_counted(run):
     weight = sum(wheel.static_load for wheel in run.train.car(1).wheels)
     for static, middle in ((False, 0.0), (True, -1e-3 * weight)):
@@ -264,6 +353,17 @@ def test_spectra_titles_give_equation_3(run):
     titles = [ax.get_title(loc="left") for ax in plots.spectra(run)]
     assert titles[0] == "i = 0, rigid deck"
     assert titles[2] == f"i = 2, Eq. 3: {run.deviations.from_rigid[1]:+.3f} %"
+
+
+def test_spectra_on_level_track_are_seen_whole_and_have_no_equation_3(run):
+    """The rigid deck's force is constant there: the others stood cut off in its scale."""
+    level = rb.cross(run.train, run.deck, speed=60.0, time_step=4e-3, iterations=2)
+    axes = plots.spectra(level)
+    assert [ax.get_title(loc="left") for ax in axes] == ["i = 0, rigid deck", "i = 1", "i = 2"]
+    highest = 1e-3 * max(level.at(i).spectrum.amplitude.max() for i in (1, 2))
+    assert highest > 0.1
+    for ax in axes:
+        assert ax.get_ylim()[0] == 0.0 and ax.get_ylim()[1] == pytest.approx(1.05 * highest)
 
 
 def labelled(ax, label):

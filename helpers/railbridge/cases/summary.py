@@ -8,6 +8,8 @@ cannot be asked.
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import math
 from collections.abc import Iterator, Sequence
@@ -16,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import errors, notices
+from .. import errors, notices, percar
 from ..decks import Deck, History, Line
 from ..errors import Remark
 from ..results import ENVELOPE, Crossing
@@ -30,8 +32,6 @@ QUANTITIES = {
     "shear_vertical": "N", "rotation_y": "rad", "rotation_z": "rad",
 }  # fmt: skip
 """What is told of every point, with units."""
-
-PLACES = ("front", "middle", "rear")
 
 
 def summarize(
@@ -54,9 +54,10 @@ def summarize(
         ``deck_mode_names``; ``remarks``; ``converged``, ``iterations`` (solves after the rigid
         one), ``windows``, ``changes``; ``deviation_percent`` (Eq. 3); ``run`` (how it was
         computed);
-        ``wheel_force_z`` (N on the deck, static part included: ``min`` is the heaviest) and
-        ``wheel_unloading`` (1 - force / static); ``points``, ``envelope``, ``reactions``,
-        ``car_body``, ``self_weight``.
+        ``wheel_force_z`` (N on the deck, static part included: ``min`` is the heaviest),
+        ``wheel_force_y`` and ``wheel_unloading`` (1 - force / static); ``points``, ``envelope``,
+        ``reactions``, ``car_body``, ``cars`` (the same of every car, see `Crossing.per_car`),
+        ``self_weight``.
 
     Notes
     -----
@@ -98,6 +99,9 @@ def summarize(
         "envelope": {name: _envelope(run, name) for name in ENVELOPE},
         "reactions": _reactions(run),
         "car_body": _car_body(run),
+        "cars": [
+            {"car": car.car, "vehicle": car.vehicle, **car.extremes} for car in run.per_car.cars
+        ],
         "self_weight": _self_weight(run, points),
     }  # fmt: skip
     return _plain(result)
@@ -129,7 +133,7 @@ class HistoryTable:
     Attributes
     ----------
     name : str
-        ``points``, ``wheels``, ``reactions`` or ``iterations``.
+        ``points``, ``wheels``, ``cars``, ``reactions`` or ``iterations``.
     columns : list of str
         Names with units; the first is ``t``, s.
     values : list of ndarray, shape (n,)
@@ -142,7 +146,9 @@ class HistoryTable:
 
     def rows(self, chunk: int = 1000) -> Iterator[str]:
         """Yield the lines of a CSV file, a header first, in chunks; nine significant digits."""
-        yield ",".join(self.columns) + "\n"
+        header = io.StringIO()
+        csv.writer(header, lineterminator="\n").writerow(self.columns)
+        yield header.getvalue()
         line = ",".join(["%.9g"] * len(self.values)) + "\n"
         for start in range(0, len(self.values[0]), chunk):
             block = np.array([v[start : start + chunk] for v in self.values]).T.tolist()
@@ -153,9 +159,11 @@ def histories(run: Crossing, points: Sequence[float]) -> Iterator[HistoryTable]:
     """Yield the histories of a crossing, one table after the other.
 
     ``points``: the quantities of every point the deck has. ``wheels``: lateral and vertical force
-    of every wheel on the deck, static part included. ``reactions``: those of every bearing line.
-    ``iterations``: vertical displacement of the first point (lateral if there is no vertical one)
-    after every iteration; iteration 0 is the deck under rigid-deck forces.
+    of every wheel on the deck, static part included. ``cars``: lateral and vertical acceleration of
+    every car's body, front, middle and rear; only the time for bare axle loads. ``reactions``:
+    those of every bearing line. ``iterations``: vertical displacement of the first point (lateral
+    if there is no vertical one) after every iteration; iteration 0 is the deck under rigid-deck
+    forces.
     """
     time = run.time
     columns, values = ["t"], [time]
@@ -171,6 +179,14 @@ def histories(run: Crossing, points: Sequence[float]) -> Iterator[HistoryTable]:
         columns += [f"{name} {f} (N)" for f in ("force_y", "force_z")]
         values += list(forces)
     yield HistoryTable("wheels", columns, values)
+    columns, values = ["t"], [time]
+    for car in run.per_car.cars:
+        history = run.car_accelerations(car.car)
+        for name, acceleration in history.values.items():
+            if not np.isnan(acceleration).all():
+                columns.append(f"car {car.car} {name} ({history.units[name]})")
+                values.append(acceleration)
+    yield HistoryTable("cars", columns, values)
     columns, values = ["t"], [time]
     for x, history in _known_reactions(run).items():
         for name, force in history.values.items():
@@ -199,26 +215,6 @@ def _plain(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _extremes(
-    values: np.ndarray, time: np.ndarray, places: Sequence[dict] = ({},)
-) -> dict[str, Any] | None:
-    """Return min and max of histories with time and place; None if there is no finite value.
-
-    The histories have the shape (places, n), or (n,).
-    """
-    values = values.reshape(len(places), -1)
-    finite = np.isfinite(values)
-    if not finite.any():
-        return None
-    result = {}
-    for name, find, beyond in (("min", np.argmin, np.inf), ("max", np.argmax, -np.inf)):
-        found = find(np.where(finite, values, beyond))
-        where, when = np.unravel_index(found, values.shape)
-        value, t = values[where, when], round(float(time[when]), 9)
-        result[name] = {"value": value, "t": t, **places[where]}
-    return result
-
-
 def _entry(extremes: tuple[tuple[float, float], tuple[float, float]]) -> dict[str, Any] | None:
     """Return min and max of a history with their times; None if there is no finite value."""
     found = zip(("min", "max"), extremes, strict=True)
@@ -236,15 +232,16 @@ def _deviations(run: Crossing) -> dict[str, Any]:
 
 def _wheels(run: Crossing) -> dict[str, Any]:
     places = [{"car": w.car, "wheel": w.number} for w in run.train.wheels]
-    forces, result = run.wheel_forces[:, 1], {}
-    for name, values in (("wheel_force_z", forces), ("wheel_unloading", run.wheel_unloading)):
-        whole, on_deck = (
-            _extremes(v, run.time, places) for v in (values, np.where(run.on_deck, values, np.nan))
-        )
-        if name == "wheel_unloading":
-            whole, on_deck = ({"max": found and found["max"]} for found in (whole, on_deck))
-        result[name] = whole and whole | {"on_deck": on_deck}
-    return result
+    sideways = np.concatenate([percar.held_sideways(car) for car in run.train.formation])
+    found = {
+        "wheel_force_z": run.wheel_forces[:, 1],
+        "wheel_force_y": np.where(sideways[:, None], run.wheel_forces[:, 0], np.nan),
+        "wheel_unloading": run.wheel_unloading,
+    }
+    return {
+        name: percar.of_wheels(name, values, run.on_deck, run.time, places)
+        for name, values in found.items()
+    }
 
 
 def _histories_at(run: Crossing, x: float) -> dict[str, History]:
@@ -330,27 +327,15 @@ def _car_body(run: Crossing) -> dict[str, Any]:
 
     And the body, where a car has several: the coaches of an articulated train.
     """
-    accelerations = run.body_accelerations
-    most = accelerations.shape[1]
-    places: list[dict[str, Any]] = []
-    free: list[set[str]] = []
-    for car in run.train.formation:
-        if car.vehicle is None:
-            continue
-        own = car.vehicle.body_places
-        several = len(own) > len(PLACES)
-        named = [{"body": body.name} if several else {} for body, _, _ in own]
-        places += [
-            {"car": car.number, "place": place, **name}
-            for (_, place, _), name in zip(own, named, strict=True)
-        ]
-        places += [{}] * (most - len(own))
-        free.append({freedom for body, _, _ in own for freedom in body.freedoms})
-    result: dict[str, Any] = {}
-    for component, name in ((1, "acceleration_z"), (0, "acceleration_y")):
-        moves = any(name[-1] in freedoms for freedoms in free)
-        found = accelerations[:, :, component]
-        result[name] = _extremes(found, run.time, places) if moves else None
+    result: dict[str, Any] = dict.fromkeys(("acceleration_z", "acceleration_y"))
+    for name in result:
+        moved = [car for car in run.per_car.cars if car.extremes[name]]
+        if moved:
+            result[name] = {
+                side: worst([{**car.extremes[name][side], "car": car.car} for car in moved],
+                            key=lambda found: found["value"])
+                for side, worst in (("min", min), ("max", max))
+            }  # fmt: skip
     return result
 
 

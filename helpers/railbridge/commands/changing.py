@@ -5,11 +5,12 @@ from __future__ import annotations
 import argparse
 import tomllib
 
+from .. import errors
 from ..cases.definition import Case, case
 from ..errors import InputError, InputWarning
 from .speech import say, warn
 
-__all__ = ["changed_case", "options", "said_doubts"]
+__all__ = ["car_numbers", "changed_case", "options", "said_doubts"]
 
 
 def options() -> argparse.ArgumentParser:
@@ -56,3 +57,20 @@ def said_doubts(loaded: Case, strict: bool) -> set[str]:
     else:
         warn(doubts)
     return {str(doubt) for doubt in doubts}
+
+
+def car_numbers(field: str, text: str) -> list[int]:
+    """Return the cars of a list in words, ``1,8``, each once.
+
+    Raises
+    ------
+    InputError
+        With `field`, if it is no such list.
+    """
+    remedy = "Write their numbers, from 1, as in 1,8"
+    found = []
+    for part in text.split(","):
+        if not part.strip().isdecimal():
+            raise InputError(field, text, "is no list of cars", remedy)
+        found.append(errors.integer(field, int(part), least=1, most=1000))
+    return list(dict.fromkeys(found))

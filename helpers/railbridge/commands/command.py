@@ -30,12 +30,12 @@ from ..lessons import exercises, marking
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
-from . import changing, copies, drawing, studying
+from . import changing, copies, drawing, plotting, studying
 from .speech import Progress, nowhere, say, tell, warn
 
 __all__ = ["main"]
 
-FILES = ("points.csv", "wheels.csv", "reactions.csv", "iterations.csv", "summary.json")
+FILES = ("points.csv", "wheels.csv", "cars.csv", "reactions.csv", "iterations.csv", "summary.json")
 KINDS = ("vehicles", "trains", "decks", "spectra", "cases")
 
 DESCRIPTION = """\
@@ -51,7 +51,8 @@ examples:
   railbridge run case.toml --out results     run it; results/summary.json has the numbers
   railbridge run paper --out paper           run a shipped case by its name
   railbridge run case.toml --out fast --set run.speed=30 --set train.cars=4
-  railbridge check deck.toml                 the same for a deck file, with its frequencies
+  railbridge plot case.toml --out pictures   run it and draw displacements, forces, car bodies
+  railbridge check deck.toml                 the check for a deck file, with its frequencies
   railbridge envelope deck.toml --trains HSLM-A --speeds 150:300km/h --out envelope
                                              the largest response to ten trains over speeds
   railbridge new --study study.toml          write a commented study file
@@ -67,9 +68,10 @@ examples:
 
 results (in the folder of --out; files of these names in it are replaced):
   summary.json     extremes with time and place, static values, dynamic factors, envelope,
-                   reactions, wheels, car bodies
+                   reactions, wheels, car bodies, and every car by itself
   points.csv       displacement, acceleration and section forces at output.points
   wheels.csv       lateral and vertical force of every wheel on the deck
+  cars.csv         accelerations of every car's body, front, middle and rear
   reactions.csv    forces of every bearing line on the deck
   iterations.csv   displacement of the first point after every iteration
   The first column of every CSV file is t, in s; the names of the others end with their unit.
@@ -233,6 +235,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     studying.add_commands(add)
     drawing.add_command(add, changes)
+    plotting.add_command(add, changes)
     add(
         "schema",
         _schema,

@@ -81,7 +81,7 @@ def _ensemble(given: argparse.Namespace) -> int:
     if "wheel_unloading" in quantities:
         remedy = "Leave it out and give --wheels-of: wheel forces bring it along"
         raise InputError("--measure", given.measure, "wheel_unloading is of wheels", remedy)
-    cars = [] if given.wheels_of is None else _cars(given.wheels_of)
+    cars = [] if given.wheels_of is None else changing.car_numbers("--wheels-of", given.wheels_of)
     loaded = changing.changed_case(given)
     doubts = changing.said_doubts(loaded, given.strict)
     if doubts and given.strict:
@@ -100,17 +100,6 @@ def _ensemble(given: argparse.Namespace) -> int:
             tell(line)
         tell(f"written to {given.out}")
     return 0
-
-
-def _cars(text: str) -> list[int]:
-    """Return the cars of a list in words, each once."""
-    remedy = "Write their numbers, from 1, as in 1,8"
-    found = []
-    for part in text.split(","):
-        if not part.strip().isdecimal():
-            raise InputError("--wheels-of", text, "is no list of cars", remedy)
-        found.append(errors.integer("--wheels-of", int(part), least=1, most=1000))
-    return list(dict.fromkeys(found))
 
 
 def _write(folder: Path, drawn: Drawn, progress: Progress) -> None:

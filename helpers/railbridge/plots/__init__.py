@@ -7,6 +7,8 @@ Colours and units are those of `style.QUANTITY_STYLES`: kN, kN m and mm.
 ``plt.style.use(rb.plots.STYLE)`` gives a notebook's own drawings the same colours.
 """
 
+from .along import deck_envelope
+from .carbodies import car_body
 from .deck import damping, deck_mode, deck_modes, influence_line
 from .diagrams import diagram
 from .envelopes import envelope
@@ -39,11 +41,11 @@ from .verdictbars import utilisation
 
 __all__ = [
     "acceleration", "animate_car_on_waves", "animate_crossing", "animate_rigid_and_flexible",
-    "animate_vehicle_mode", "assurance", "box_section", "car_forces", "convergence", "damping",
-    "deck_mode", "deck_modes", "deviations", "diagram", "displacement", "envelope", "extremes",
-    "frequencies", "influence_line", "irregularity", "iterations", "load_modes", "map", "notch",
-    "random_response", "reactions", "section_force", "shell_mode", "shell_modes", "slope",
-    "spectra", "spectrum", "track_spectra", "train_on_deck", "utilisation", "vehicle",
-    "vehicle_mode", "velocity", "wave_shares", "wheel_force", "wheel_forces", "wheel_paths",
-    "wheels_on_track",
+    "animate_vehicle_mode", "assurance", "box_section", "car_body", "car_forces", "convergence",
+    "damping", "deck_envelope", "deck_mode", "deck_modes", "deviations", "diagram", "displacement",
+    "envelope", "extremes", "frequencies", "influence_line", "irregularity", "iterations",
+    "load_modes", "map", "notch", "random_response", "reactions", "section_force", "shell_mode",
+    "shell_modes", "slope", "spectra", "spectrum", "track_spectra", "train_on_deck", "utilisation",
+    "vehicle", "vehicle_mode", "velocity", "wave_shares", "wheel_force", "wheel_forces",
+    "wheel_paths", "wheels_on_track",
 ]  # fmt: skip

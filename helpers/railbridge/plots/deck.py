@@ -23,7 +23,7 @@ from .drawing import (
 )
 from .style import GREY, literal, style_of
 
-__all__ = ["damping", "deck_mode", "deck_modes", "influence_line"]
+__all__ = ["damping", "deck_mode", "deck_modes", "draw_bearings", "influence_line"]
 
 
 def deck_mode(deck: Deck, mode: int, ax: Axes | None = None) -> Axes:
@@ -45,7 +45,7 @@ def deck_mode(deck: Deck, mode: int, ax: Axes | None = None) -> Axes:
         moves = np.abs(own).max() > 1e-3
         line = {"label": word if moves else None, "color": style.colour, "ls": style.line}
         curve(ax, name, x, own if moves else np.full_like(x, np.nan), **line)
-    _draw_bearings(ax, deck)
+    draw_bearings(ax, deck)
     frequency, ratio = deck.frequencies_hz[i], 100 * deck.damping_ratios[i]
     title = f"mode {mode}: {literal(deck.mode_names[i])}, {frequency:.4g} Hz, damping {ratio:.1f} %"
     label_axes(ax, PLACE_LABEL, "shape (-)", title)
@@ -157,7 +157,7 @@ def influence_line(deck: Deck, quantity: str, x: float, ax: Axes | None = None) 
     curve(ax, "axis", [0.0, deck.length], [0.0, 0.0], color=GREY, lw=0.8)
     options = {"label": f"{style.words} at x = {x:g} m", "color": style.colour, "ls": style.line}
     curve(ax, "line", along, factor * values, **options)
-    _draw_bearings(ax, deck)
+    draw_bearings(ax, deck)
     way = {"y": "lateral", "z": "upward", "roll": "roll"}[load]
     return label_axes(ax, "place of the load, x (m)", f"per unit {way} load ({unit})")
 
@@ -170,8 +170,10 @@ def _influence_unit(unit: str, load: str) -> tuple[str, float]:
     return ("-" if unit == "kN" or load == "roll" else "m"), 1.0
 
 
-def _draw_bearings(ax: Axes, deck: Deck) -> None:
+def draw_bearings(ax: Axes, deck: Deck) -> None:
     """Draw the bearing lines on the deck's axis."""
     zeros = np.zeros(len(deck.supports))
-    triangle = {"color": "k", "ls": "", "marker": "^", "ms": 7, "clip_on": False}
+    # Without any the layout would make room for an artist that is nowhere.
+    clipped = not deck.supports
+    triangle = {"color": "k", "ls": "", "marker": "^", "ms": 7, "clip_on": clipped}
     curve(ax, "bearings", deck.supports, zeros, **triangle)

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
+from .. import errors
+from ..percar import held_sideways
 from ..results import Crossing
 from ..spectra import Spectrum, deviation_percent
 from ..trains import CONDENSED
@@ -48,29 +50,51 @@ def wheel_force(run: Crossing, car: int = 1, wheel: int = 1, ax: Axes | None = N
     return label_axes(ax, TIME_LABEL, "wheel force on the deck (kN)")
 
 
-def wheel_forces(run: Crossing, car: int = 1, axes: Sequence[Axes] | None = None) -> np.ndarray:
+def wheel_forces(
+    run: Crossing,
+    car: int = 1,
+    axes: Sequence[Axes] | None = None,
+    components: Sequence[str] = ("force_y", "force_z"),
+) -> np.ndarray:
     """Plot vertical and lateral forces of all wheels of one car over time, left and right rail.
+
+    No lateral force of wheels that are not held sideways.
+
+    Parameters
+    ----------
+    run : Crossing
+    car : int
+        From 1.
+    axes : sequence of Axes, optional
+        As many as axles.
+    components : sequence of {"force_y", "force_z"}
 
     Returns
     -------
     ndarray of Axes
         One for each axle, front first.
     """
-    axles = run.train.car(car).axles
+    for name in components:
+        errors.choice("components", name, ("force_y", "force_z"))
+    what = style_of(components[0]).label if len(components) == 1 else "force (kN)"
+    own = run.train.car(car)
+    axles, held = own.axles, held_sideways(own)
     height = 0.6 + 1.5 * len(axles)
     axes = axes_or_new_grid(axes, len(axles), 1, height, sharex=True, sharey=True)
     for number, (ax, axle) in enumerate(zip(axes, axles, strict=True), start=1):
         shade_car(run, car, ax, label=number == 1)
         for wheel in axle.wheels:
             history = run.wheel_force(car, wheel.number)
-            for name in ("force_y", "force_z"):
+            for name in components:
+                if name == "force_y" and not held[wheel.number - 1]:
+                    continue
                 style = style_of(name)
                 label = f"{style.words}, {wheel.side}" if number == 1 else None
                 line = {"name": f"{name} {wheel.side}", "label": label, "lw": 2.4}
                 if wheel.side == "right":
                     line |= {"color": other_shade(style.colour), "lw": 1.0}
                 quantity_curve(ax, name, run.time, history[name], **line)
-        label_axes(ax, TIME_LABEL if ax is axes[-1] else "", "force (kN)", f"axle {number}")
+        label_axes(ax, TIME_LABEL if ax is axes[-1] else "", what, f"axle {number}")
     return axes
 
 
@@ -232,11 +256,19 @@ def spectra(
         if i:
             line = {"name": "rigid", "color": GREY, "ls": "", "marker": "_", "ms": 7}
             quantity_curve(ax, "force_z", rigid.frequency, rigid.amplitude, **line)
-            title = f"i = {i}, Eq. 3: {deviation_percent(iterated, rigid):+.3f} %"
+            deviation = deviation_percent(iterated, rigid)
+            # On level track the rigid deck's force is constant, and Eq. 3 divides by nothing.
+            title = f"i = {i}" + f", Eq. 3: {deviation:+.3f} %" * bool(np.isfinite(deviation))
         spectrum(iterated, ax)
         ax.set_title(title, loc="left", fontsize="medium")
         ax.label_outer()
         if place >= len(iterations) - 3:  # the lowest of its column
             ax.tick_params(labelbottom=True)
             ax.set_xlabel("frequency (Hz)")
+    # The first axes has set the limits of all to its own lines.
+    highest = max(
+        style_of("force_z").factor * run.at(i).spectrum.amplitude.max() for i in iterations
+    )
+    if highest > axes[0].get_ylim()[1]:
+        axes[0].set_ylim(top=1.05 * highest)
     return axes

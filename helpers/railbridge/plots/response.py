@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import cycle
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -112,7 +113,7 @@ def reactions(
     ax, reaction = axes_or_new(ax), f"reaction_{quantity[-1]}"
     shade_train(run, ax)
     own = style_of(reaction).colour
-    colours = (own, other_shade(own), *RUN_COLOURS)
+    colours = cycle((own, other_shade(own), *RUN_COLOURS))
     for (support, history), colour in zip(histories.items(), colours, strict=False):
         line = {"color": colour, "name": f"bearing at {support:g} m"}
         line["label"] = line["name"]
