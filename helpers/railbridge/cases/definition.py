@@ -209,12 +209,21 @@ class Case:
         if needs is None:
             remedy = "Give it, with line_speed at least: see docs/case.md"
             raise InputError("checks", None, "is missing, and says what is asked of", remedy)
-        trains = self.train if trains is None else trains
+        trains = {self._train_in_words: self.train} if trains is None else trains
         if speeds is None or isinstance(speeds, int):
             speeds = usual_speeds(needs, speeds)
         options = {key: value for key, value in self.options.items() if key != "speed"}
         with within(names=IN_A_CASE):
             return assess(self.deck, trains, speeds, needs, track=self.track, **how, **options)
+
+    @property
+    def _train_in_words(self) -> str:
+        """What a table calls this train: its name or file, or what its cars are."""
+        given = self.content["train"]
+        if "vehicle" in given:
+            return f"{given.get('cars', 1)} x {Path(given['vehicle']).stem}"
+        named = given.get("name") or Path(given.get("file", "")).stem
+        return named or "the train"
 
     @property
     def doubts(self) -> list[Remark]:

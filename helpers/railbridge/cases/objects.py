@@ -355,10 +355,11 @@ def deck_of_case(content: Mapping[str, Any]) -> Deck:
     """Return the deck of a case's ``[deck]``, made once for every content."""
     t = checked(tables.DECK, content, "deck")
     if not isinstance(t, tables.SHIPPED):
+        name = content.get("name")
+        name = name if isinstance(name, str) and name.strip() else "deck"
         with within("deck"):
-            return _cached_deck(
-                "deck", json.dumps(content, sort_keys=True), *exchange.stamps(content)
-            )
+            key = json.dumps(content, sort_keys=True)
+            return _cached_deck(name, key, *exchange.stamps(content))
     with within("deck.file", {"deck": ""}):
         path, own = _own(t.file)
     if t.has("rail"):

@@ -19,8 +19,6 @@ __all__ = ["NUMBERS", "Bearing", "Questions"]
 
 NUMBERS = ("wheel_unloading", "body_acceleration_z")
 """What is asked of a whole crossing."""
-_BESIDE = 0.01
-"""Share of the deck over which the slope of its end is taken."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,21 +104,10 @@ class Questions:
 
     @cached_property
     def end_rotations(self) -> tuple[Output, ...]:
-        """Rotations of both ends about the vertical; none where the deck is rigid sideways.
-
-        The slope of the lateral displacement at an end, by three places a hundredth of the deck
-        apart: (-3 v_0 + 4 v_1 - v_2) / (2 h).
-        """
-        length = self.deck.length
-        h = _BESIDE * length
-        found = []
-        for end, inwards in ((0.0, h), (length, -h)):
-            lines = self._lateral(end, end + inwards, end + 2 * inwards)
-            if lines:
-                weights = np.array([-3.0, 4.0, -1.0]) / (2 * inwards)
-                line = combined(list(zip(weights, lines, strict=True)))
-                found.append(Output("end rotation", end, line.modal, line))
-        return tuple(found)
+        """Rotations of both ends about the vertical; none where the deck is rigid sideways."""
+        if self.deck.recovery.section("rotation_z", 0.0) is None:
+            return ()
+        return outputs_at(self.deck, ("rotation_z",), (0.0, self.deck.length))
 
     @cached_property
     def bows(self) -> tuple[tuple[Span, Output], ...]:
