@@ -50,16 +50,15 @@ def own_bridge(case: Case | None = None) -> Panel:
         worst = _acceleration(found)
         f1 = found.deck.frequencies_hz[0]
         kmh = 3.6 * values["line_speed"]
-        rows = {word: [] for word in ("not met", "cannot decide")}
-        for row in found.verdicts:
-            rows.get(row.verdict, []).append(row.clause.title)
-        told = "; ".join(f"{word}: {', '.join(names)}" for word, names in rows.items() if names)
+        failed = [row.clause.title for row in found.verdicts if row.verdict == "not met"]
+        open_ones = sum(row.verdict == "cannot decide" for row in found.verdicts)
+        told = f"Not met: {', '.join(failed) or 'none'}; not decided: {open_ones}"
         return (
             f"{values['span']:.1f} m, {values['mass'] / 1e3:.1f} t/m, "
             f"E I = {values['stiffness'] / 1e9:.1f} GN m2, damping "
             f"{100 * values['damping']:.2f} %: first frequency {f1:.2f} Hz. {values['train']} on a "
             f"line for {kmh:.0f} km/h: largest acceleration {worst.value:.2f} m/s2, limit "
-            f"{worst.limit:.1f}. {told or 'All met'}."
+            f"{worst.limit:.1f}. {told} of {len(found.verdicts)}."
         )
 
     listed = dict.fromkeys((base.get("train.name"), *TRAINS))
