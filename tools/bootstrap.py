@@ -25,7 +25,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 OLDEST_PYTHON = "3.11"
-EXTRAS = ("fem", "study", "fast", "app", "site", "test", "dev")
+EXTRAS = ("fem", "study", "fast", "report", "app", "site", "test", "dev")
 
 # Those who keep their installers new have done nothing wrong.
 NOT_OURS = re.compile(r"__pycache__|(pip|setuptools|wheel)-.*")

@@ -62,6 +62,7 @@ _MODULES = {
     "panels": "panels",
     "paper": "validation.paper",
     "plots": "plots",
+    "reports": "reports",
     "staggered": "exchange.staggered",
     "studies": "studies",
     "validation": "validation",

@@ -20,7 +20,7 @@ MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 TARGETS = dict(re.findall(r"^([a-z-]+):[^#\n]*## .*\n((?:\t.*\n)*)", MAKEFILE, re.MULTILINE))
 DOCUMENTS = (
     "README.md", "CONTRIBUTING.md", "docs/map.md", "docs/case.md", "docs/hub.md", "docs/studies.md",
-    "docs/spectra.md", "docs/codes.md", "docs/units.md",
+    "docs/spectra.md", "docs/codes.md", "docs/report.md", "docs/units.md",
 )  # fmt: skip
 
 
@@ -217,4 +217,38 @@ def test_options_of_the_page_on_studies_exist(capsys):
             cli.main([command, "--help"])
     said = capsys.readouterr().out
     for option in set(re.findall(r"(?<![-\w])--[a-z][a-z-]+", STUDIES)):
+        assert option in said, option
+
+
+REPORTS = (ROOT / "docs" / "report.md").read_text(encoding="utf-8")
+
+
+def test_the_python_of_the_page_on_reports_runs(tmp_path, monkeypatch):
+    for name in ("jinja2", "openpyxl"):
+        pytest.importorskip(name)
+    monkeypatch.chdir(tmp_path)
+    exec(re.search(r"```python\n(.*?)```", REPORTS, re.DOTALL)[1], {})
+    assert {path.name for path in tmp_path.iterdir()} == {"bridge.html", "bridge.xlsx"}
+
+
+def test_commands_of_the_page_on_reports_run(tmp_path, monkeypatch, capsys):
+    for name in ("jinja2", "openpyxl", "xarray"):
+        pytest.importorskip(name)
+    monkeypatch.chdir(tmp_path)
+    lines = re.search(r"```\n(railbridge report.*?)```", REPORTS, re.DOTALL)[1].splitlines()
+    commands = [line.partition(" # ")[0].split()[1:] for line in lines]
+    assert len(commands) == 5
+    small = 'case = "paper"\nmeasure = ["displacement_z"]\n[over]\n"train.cars" = [1]\n'
+    (tmp_path / "study.toml").write_text(small)
+    for command in commands:
+        assert cli.main([*command, "-q"]) == 0, capsys.readouterr().err
+    made = {path.name for path in tmp_path.iterdir()} - {"study.toml"}
+    assert made == {"paper.html", "paper.xlsx", "fast.html", "trains.html", "study.html"}
+
+
+def test_options_of_the_page_on_reports_exist(capsys):
+    with pytest.raises(SystemExit):
+        cli.main(["report", "--help"])
+    said = capsys.readouterr().out
+    for option in set(re.findall(r"(?<![-\w])--[a-z][a-z-]+", REPORTS)):
         assert option in said, option

@@ -31,7 +31,7 @@ def test_the_oldest_are_those_of_pyproject_and_not_of_the_lock(versions, root):
     assert venv[venv.index("--python") + 1] == "3.11"
     assert install[install.index("--resolution") + 1] == "lowest-direct"
     assert not any("lock" in word for word in install)
-    assert install[-1] == f"{root}[fem,study,fast,app,site,test,dev]"
+    assert install[-1] == f"{root}[fem,study,fast,report,app,site,test,dev]"
 
 
 def test_another_python_gets_the_locked_packages(versions, root):

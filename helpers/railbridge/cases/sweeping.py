@@ -8,7 +8,7 @@ import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -85,6 +85,8 @@ class Plan:
     title : str
     doubts : tuple of Remark
         What is unlikely to be meant, one of each key.
+    tables : dict
+        Of the trains as a case has them, by name.
     """
 
     dimensions: tuple[Dimension, ...]
@@ -94,6 +96,7 @@ class Plan:
     like: Case
     title: str
     doubts: tuple[Remark, ...] = ()
+    tables: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     @property
     def deck(self) -> Deck:
@@ -260,7 +263,7 @@ def planned(
             raise InputError("points", None, allowed, "Name places that all decks have")
     title = " x ".join(f"{len(d.values)} {d.name}" for d in dimensions)
     doubts = cases.doubts()
-    return Plan(tuple(dimensions), tuple(found), asked, made_trains, like, title, doubts)
+    return Plan(tuple(dimensions), tuple(found), asked, made_trains, like, title, doubts, named)
 
 
 def _mix(points: list[Point], groups: Iterable[list[int]]) -> None:

@@ -6,11 +6,12 @@ import argparse
 import tomllib
 
 from .. import errors
+from ..cases import shelf, tables
 from ..cases.definition import Case, case
 from ..errors import InputError, InputWarning
 from .speech import say, warn
 
-__all__ = ["car_numbers", "changed_case", "options", "said_doubts"]
+__all__ = ["car_numbers", "changed_case", "is_deck", "options", "said_doubts"]
 
 
 def options() -> argparse.ArgumentParser:
@@ -74,3 +75,12 @@ def car_numbers(field: str, text: str) -> list[int]:
             raise InputError(field, text, "is no list of cars", remedy)
         found.append(errors.integer(field, int(part), least=1, most=1000))
     return list(dict.fromkeys(found))
+
+
+def is_deck(name: str) -> bool:
+    """Whether a name is that of a shipped deck, or of a file with the keys of a deck's."""
+    if not shelf.is_path(name):
+        shipped = shelf.data_names("cases", ".toml")
+        return name not in shipped and name in shelf.data_names("decks", ".toml")
+    keys = shelf.read_toml(shelf.data_file("cases", name, ".toml")).keys()
+    return not keys & tables.CASE.model_fields.keys() and bool(keys & tables.DECK_KEYS)

@@ -19,7 +19,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from ..cases import pages, shelf, staging, tables
+from ..cases import pages, shelf, staging
 from ..cases.axletrains import train_list
 from ..cases.definition import Case, case
 from ..cases.summary import histories, to_json
@@ -30,7 +30,7 @@ from ..lessons import exercises, marking
 from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
-from . import changing, copies, drawing, plotting, studying
+from . import changing, copies, drawing, plotting, reporting, studying
 from .speech import Progress, nowhere, say, tell, warn
 
 __all__ = ["main"]
@@ -59,6 +59,8 @@ examples:
   railbridge sweep study.toml --out study    a case over values of any of its keys
   railbridge ensemble case.toml --realisations 200 --out drawn
                                              a case whose track is random, drawn many times
+  railbridge report case.toml --out bridge.html
+                                             a page for a checker: inputs, results, verdicts
   railbridge list                            vehicles, decks and cases that are shipped
   railbridge copy-notebooks my-course        the lessons as copies of your own; done again, it
                                              renews those that are not edited
@@ -236,6 +238,7 @@ def _parser() -> argparse.ArgumentParser:
     studying.add_commands(add)
     drawing.add_command(add, changes)
     plotting.add_command(add, changes)
+    reporting.add_command(add, changes)
     add(
         "schema",
         _schema,
@@ -311,7 +314,7 @@ def _write(
 
 
 def _check(given: argparse.Namespace) -> int:
-    if _is_deck(given.case):
+    if changing.is_deck(given.case):
         return _check_deck(given)
     loaded = changing.changed_case(given)
     if changing.said_doubts(loaded, given.strict) and given.strict:
@@ -325,15 +328,6 @@ def _check(given: argparse.Namespace) -> int:
         f"{s.time_step:.3g} s, {needed / 1e9:.2g} GB; deck: {_modes(loaded.deck)}"
     )
     return 0
-
-
-def _is_deck(name: str) -> bool:
-    """Whether a name is that of a shipped deck, or of a file with the keys of a deck's."""
-    if not shelf.is_path(name):
-        shipped = shelf.data_names("cases", ".toml")
-        return name not in shipped and name in shelf.data_names("decks", ".toml")
-    keys = shelf.read_toml(shelf.data_file("cases", name, ".toml")).keys()
-    return not keys & tables.CASE.model_fields.keys() and bool(keys & tables.DECK_KEYS)
 
 
 def _check_deck(given: argparse.Namespace) -> int:

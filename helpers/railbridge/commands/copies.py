@@ -31,6 +31,7 @@ PAGES = (
     "docs/case.md",
     "docs/codes.md",
     "docs/exchange.md",
+    "docs/report.md",
     "docs/spectra.md",
     "docs/studies.md",
     "docs/symbols.md",

@@ -20,6 +20,7 @@ import numpy as np
 from .. import errors, studies
 from ..cases import pages, shelf, staging, sweeping
 from ..cases.axletrains import train_list
+from ..cases.definition import Case
 from ..cases.ranges import unit_of, written_ends, written_range
 from ..cases.studytrains import trains_of_case
 from ..errors import InputError
@@ -31,7 +32,10 @@ from .speech import say, tell
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["add_commands"]
+__all__ = [
+    "FAILED", "Asking", "add_commands", "add_envelope_options", "crossings_told", "envelope_plan",
+    "refuse_large", "say_remarks", "study_plan",
+]  # fmt: skip
 
 _ENVELOPE_EXAMPLES = """\
 examples:
@@ -88,28 +92,39 @@ def add_commands(add: Callable[..., argparse.ArgumentParser]) -> None:
         epilog=_ENVELOPE_EXAMPLES,
     )  # fmt: skip
     envelope.add_argument("deck", help="a deck file, a case file, or the name of a shipped one")
-    envelope.add_argument(
-        "--trains", required=True, metavar="A,B",
+    add_envelope_options(envelope, required=True)
+
+
+def add_envelope_options(parser: argparse.ArgumentParser, required: bool) -> None:
+    """Add to a parser which trains, speeds, places and quantities an envelope is of."""
+    parser.add_argument(
+        "--trains", required=required, metavar="A,B",
         help="names (railbridge list trains; HSLM-A means all ten) or .csv files",
     )  # fmt: skip
-    envelope.add_argument(
-        "--speeds", required=True, metavar="RANGE",
+    parser.add_argument(
+        "--speeds", required=required, metavar="RANGE",
         help="150:300km/h: chosen, finer beside each peak; 150:300:2.5km/h: in steps, the last "
         "speed is always in; or single values, 150,200km/h; m/s without a unit",
     )  # fmt: skip
-    envelope.add_argument(
+    parser.add_argument(
         "--points", metavar="X,X", help="places along the deck, m; default mid-length"
     )
-    envelope.add_argument(
+    parser.add_argument(
         "--measure", metavar="A,B", default=",".join(studies.QUANTITIES),
         help="quantities (default %(default)s)",
     )  # fmt: skip
 
 
 def _sweep(given: argparse.Namespace) -> int:
-    path = Path(given.study)
+    plan, _ = study_plan(given.study)
+    return _carry_out(given, plan, Asking("sweep", Path(given.study).stem))
+
+
+def study_plan(study: str) -> tuple[sweeping.Plan, dict[str, Any]]:
+    """Return the plan of a study file, and what the file says, its paths as they can be opened."""
+    path = Path(study)
     if path.suffix != ".toml":
-        raise InputError("study", given.study, "must end in .toml")
+        raise InputError("study", study, "must end in .toml")
     found = shelf.read_toml(path, STUDY)
     with errors.within(source=path.name):
         errors.keys("", found, STUDY, ["case"])
@@ -119,7 +134,7 @@ def _sweep(given: argparse.Namespace) -> int:
         measure = found.get("measure", sweeping.MEASURE)
         trains = _beside(found.get("trains"), path.parent)
         plan = sweeping.planned(source, found.get("over", {}), trains, measure, found.get("points"))
-    return _carry_out(given, plan, Asking("sweep", path.stem))
+    return plan, found | {"trains": trains} if trains else found
 
 
 def _beside(trains: Any, folder: Path) -> Any:
@@ -152,6 +167,21 @@ def _is_file(train: Any) -> bool:
 
 
 def _envelope(given: argparse.Namespace) -> int:
+    return _carry_out(given, *envelope_plan(given))
+
+
+def envelope_plan(
+    given: argparse.Namespace, own: Case | None = None
+) -> tuple[sweeping.Plan, Asking]:
+    """Return the plan of trains over speeds, and what was asked for.
+
+    Parameters
+    ----------
+    given : Namespace
+        With deck, trains, speeds, points and measure; see `add_envelope_options`.
+    own : Case, optional
+        Instead of that of ``given.deck``: trains that are left out are its own one.
+    """
     ends = written_ends("--speeds", given.speeds, "speed")
     speeds = np.array(ends) if ends else written_range("--speeds", given.speeds, "speed")
     with errors.within(names={"speeds": "--speeds"}):
@@ -159,13 +189,13 @@ def _envelope(given: argparse.Namespace) -> int:
     points = None
     if given.points is not None:
         points = written_range("--points", given.points, "length")
-    listed = [name.strip() for name in given.trains.split(",") if name.strip()]
-    if not listed:
-        raise InputError("--trains", given.trains, "must name at least one train")
-    trains = trains_of_case([_listed(name) for name in listed])
+    if given.trains is None and own is not None:
+        trains = {_name_of(own): own.content["train"]}
+    else:
+        trains = _trains_of(given.trains)
     measure = [name.strip() for name in given.measure.split(",")]
     first = next(iter(trains.values()))
-    source = _case_of(given.deck, first, float(speeds[0]))
+    source = _case_of(given.deck, first, float(speeds[0])) if own is None else own
     names = {
         "over[run.speed]": "--speeds", "points": "--points", "measure": "--measure",
         "quantities": "--measure", "speeds": "--speeds",
@@ -182,7 +212,23 @@ def _envelope(given: argparse.Namespace) -> int:
             # Those that are computed in any case; which follow is seen on the way.
             over = {"run.speed": plan.starting_speeds(between).tolist()}
             plan = sweeping.planned(source, over, trains, measure, points)
-    return _carry_out(given, plan, Asking("envelope", plan.deck.name, between, unit))
+    return plan, Asking("envelope", plan.deck.name, between, unit)
+
+
+def _trains_of(text: str | None) -> dict[str, dict[str, Any]]:
+    """Return the tables of trains that are named on the command line."""
+    listed = [name.strip() for name in (text or "").split(",") if name.strip()]
+    if not listed:
+        raise InputError("--trains", text, "must name at least one train")
+    return trains_of_case([_listed(name) for name in listed])
+
+
+def _name_of(own: Case) -> str:
+    """Return what the train of a case is called."""
+    kinds = own.train.kinds()
+    if kinds:
+        return " + ".join(f"{len(cars)} x {vehicle.name}" for vehicle, cars in kinds)
+    return getattr(own.train, "name", None) or "train of the case"
 
 
 def _listed(name: str) -> str:
@@ -247,19 +293,24 @@ def _carry_out(given: argparse.Namespace, plan: sweeping.Plan, asking: Asking) -
     studies.needed("xarray", "zarr", "netCDF4", "tqdm")
     if given.cluster:
         studies.needed("distributed")
-    memory = _bytes(plan)
-    if memory > MEMORY_LIMIT:
-        allowed = f"the results would need {memory / 1e9:.3g} GB of memory"
-        remedy = "Use fewer points or quantities, or several studies"
-        raise InputError(asking.name, len(plan.points), allowed, remedy)
-    _say_remarks(plan, asking)
+    refuse_large(plan, asking)
+    say_remarks(plan, asking)
     if given.dry_run and not (Path(given.out) / sweeping.STORE).exists():
         return _with_store(given, plan, asking, studies.MemoryStore())
     with staging.growing(given.out, "--out") as folder:
         return _with_store(given, plan, asking, plan.store(folder))
 
 
-def _say_remarks(plan: sweeping.Plan, asking: Asking) -> None:
+def refuse_large(plan: sweeping.Plan, asking: Asking) -> None:
+    """Refuse a study whose results do not fit into memory."""
+    memory = _bytes(plan)
+    if memory > MEMORY_LIMIT:
+        allowed = f"the results would need {memory / 1e9:.3g} GB of memory"
+        remedy = "Use fewer points or quantities, or several studies"
+        raise InputError(asking.name, len(plan.points), allowed, remedy)
+
+
+def say_remarks(plan: sweeping.Plan, asking: Asking) -> None:
     """Print what is unlikely to be meant, and what cannot be found, before work starts."""
     speeds = {"run.speed": "--speeds"} if asking.name == "envelope" else {}
     for doubt in plan.doubts:
@@ -368,7 +419,7 @@ def _computed(
             allowed = f"no scheduler answers there ({error})"
             raise InputError("--cluster", given.cluster, allowed) from None
     try:
-        with _progress(given.quiet) as progress:
+        with crossings_told(given.quiet) as progress:
             options = {"chunk": given.chunk, "workers": given.workers, "client": client}
             if between:
                 return plan.chosen(store, between, progress=progress, **options)
@@ -379,7 +430,7 @@ def _computed(
 
 
 @contextmanager
-def _progress(quiet: bool) -> Iterator[Callable[[int, int], None] | None]:
+def crossings_told(quiet: bool) -> Iterator[Callable[[int, int], None] | None]:
     """Tell how far it is and how long it takes: a bar in a terminal, else a line in ten seconds."""
     if quiet:
         yield None

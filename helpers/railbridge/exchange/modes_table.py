@@ -23,7 +23,7 @@ from .nodes import (
     node_choice,
 )
 
-__all__ = ["ModesTable", "beside", "stamps"]
+__all__ = ["ModesTable", "beside", "sources", "stamps"]
 
 _PATHS = ("nodes", "modes", "masses")
 _IN_THE_TABLE = {
@@ -139,16 +139,20 @@ def beside(content: dict[str, Any], folder: Path) -> dict[str, Any]:
     return {**content, "modes": {**own, **paths}}
 
 
+def sources(content: Mapping[str, Any]) -> dict[str, Path]:
+    """Return the files that a deck file's modes are read from, by their keys."""
+    own = content.get("modes")
+    own = own if isinstance(own, Mapping) else {}
+    return {k: Path(own[k]) for k in _PATHS if isinstance(own.get(k), str)}
+
+
 def stamps(content: Mapping[str, Any]) -> list[int]:
     """Return times and sizes of the files that a deck file's modes are read from.
 
     When these change, a deck that was kept is out of date.
     """
-    own = content.get("modes")
-    own = own if isinstance(own, Mapping) else {}
-    paths = [Path(own[k]) for k in _PATHS if isinstance(own.get(k), str)]
     found = []
-    for path in paths:
+    for path in sources(content).values():
         with suppress(OSError, ValueError):  # reading it says what is wrong
             found.append(path.stat())
     return [n for s in found for n in (s.st_mtime_ns, s.st_size)]
