@@ -49,7 +49,7 @@ notebooks: env  ## execute all notebooks and store their outputs (the only way o
 site: env  ## build a static site of all notebooks in build/site, readable without network
 	$(BIN)/python tools/site.py $(ARGS)
 
-pages: env  ## write the tables of docs/case.md, docs/spectra.md and docs/codes.md
+pages: env  ## write the tables of docs/case.md, docs/units.md, docs/spectra.md and docs/codes.md
 	$(BIN)/python tools/pages.py $(ARGS)
 
 lint: env  ## check style, formatting and the layers of the package

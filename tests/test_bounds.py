@@ -35,6 +35,8 @@ SLIPS = [
     ("height", 120.0, "given in mm or cm"),
     ("bearing_shear", 2e3, "given in kN/m or MN/m"),
     ("bearing_shear", 2.0, "given in MN/m"),
+    ("pier_height", 12e3, "given in mm or cm"),
+    ("pier_height", 1200.0, "given in cm"),
     ("sleepers", 0.06, "is its decimal point right"),
     ("rail_stiffness", 1.28e4, "given in kN m2"),
     ("rail_stiffness", 12.8, "given in MN m2"),
@@ -106,14 +108,15 @@ def test_bounds_are_told_in_words(name, words):
 
 LENGTHS = (
     "amplitude axle_gap axle_pause axle_reach bearing_sag bending_radius circumference half_gauge "
-    "height notch_depth off_axis overhang polar_radius sleepers span wavelength width"
+    "height notch_depth off_axis overhang pier_height pier_radius polar_radius sleepers span "
+    "wavelength width"
 )
 UNITS = {
     "m": LENGTHS, "m2": "area", "m4": "second_moment", "m/s": "speed", "Hz": "vehicle_frequency",
     "rad": "phase", "Pa": "youngs_modulus", "N": "axle_load car_load", "N/m": "bearing_shear",
     "kg": "body_mass wheelset_mass", "kg/m": "mass track_mass", "kg/m3": "density steel_density",
     "N m2": "rail_stiffness", "N/m2": "foundation",
-    "": "damping_frequency damping_ratio live_sag shear_share slope",
+    "": "damping_frequency damping_ratio live_sag point_mass shear_share slope",
 }  # fmt: skip
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import railbridge as rb
 from railbridge.coupling import prepare
-from railbridge.decks import combined
+from railbridge.decks import combined, load_of
 from railbridge.settings import check
 
 L, M, EI = 36.0, 12e3, 8.93e10
@@ -50,6 +50,44 @@ def test_rayleigh_of_the_paper():
 def test_rayleigh_refuses(wrong, named):
     with pytest.raises(rb.InputError, match=f"^{named}"):
         rb.rayleigh(*wrong)
+
+
+def test_a_ratio_for_each_mode_and_the_last_for_all_higher_ones():
+    per_mode = rb.ModalDamping((0.03, 0.02, 0.015))
+    deck = simple(per_mode, 6)
+    assert deck.damping_ratios.tolist() == [0.03, 0.02, 0.015, 0.015, 0.015, 0.015]
+    assert deck.internal_damping == 0.0
+    assert simple(per_mode, 2).damping_ratios.tolist() == [0.03, 0.02]
+    assert simple(rb.ModalDamping([0.5]), 3).damping_ratios.tolist() == [0.5] * 3
+    # Two ratios are not alpha and beta.
+    two = simple(rb.ModalDamping((0.03, 0.02)), 3)
+    assert two.damping_ratios.tolist() == [0.03, 0.02, 0.02]
+    assert simple((0.03, 0.02), 3).internal_damping == 0.02
+
+
+@pytest.mark.parametrize(
+    ("ratios", "words"),
+    [
+        ((), r"^ratios = \[\]: must hold at least one"),
+        ((0.01, 0.51), r"^ratios\[2\] = 0.51: must be .* at least 0 and at most 0.5\."),
+        ((-1e-3,), r"^ratios\[1\] = -0.001: "),
+        (0.03, r"^ratios = 0.03: must be a list of numbers"),
+    ],
+)
+def test_ratios_that_cannot_be_are_refused(ratios, words):
+    with pytest.raises(rb.InputError, match=words):
+        rb.ModalDamping(ratios)
+
+
+def test_one_mode_rings_down_with_its_own_ratio():
+    """Between two peaks of free vibration after a load has left: exp(-2 pi zeta / sqrt(1 - z2))."""
+    ratios = rb.ModalDamping((0.04, 0.01))
+    deck = rb.Beam("b", (L,), M, EI).deck(1, ratios)
+    run = rb.cross(rb.AxleTrain((0.0,), (1e5,)), deck, speed=40.0, time_step=2e-3, tail=4.0)
+    moved = run.displacement(x=18.0)["displacement_z"][run.time > 36.0 / 40.0]
+    peaks = np.flatnonzero((moved[1:-1] > moved[:-2]) & (moved[1:-1] > moved[2:])) + 1
+    decay = np.diff(np.log(moved[peaks[:5]]))
+    assert decay == pytest.approx([-2 * np.pi * 0.04 / np.sqrt(1 - 0.04**2)] * 4, rel=2e-3)
 
 
 def moving_force(t, speed, load, x, modes, ratio):
@@ -372,6 +410,20 @@ def test_a_deck_of_modes_alone_says_what_it_lacks():
     assert bare.influence("displacement_z", at=18.0, places=[18.0]) == pytest.approx(
         known.influence("displacement_z", at=18.0, places=[18.0]), rel=0.02
     )
+
+
+@pytest.mark.parametrize(
+    ("load", "quantities"),
+    [
+        ("y", ("displacement_y", "rotation_z", "moment_lateral", "shear_lateral", "force_y")),
+        ("z", ("displacement_z", "rotation_y", "moment_vertical", "shear_vertical", "force_z")),
+        ("roll", ("rotation_x", "torsion", "moment_x")),
+        ("z", ("moment_y",)),
+        ("y", ("moment_z",)),
+    ],
+)
+def test_the_load_of_a_quantity_s_own_direction(load, quantities):
+    assert [load_of(quantity) for quantity in quantities] == [load] * len(quantities)
 
 
 def test_lines_add_up_wherever_their_sections_are():

@@ -26,6 +26,8 @@ def test_an_envelope_is_the_histories_side_by_side(run, quantity):
             alone = run.displacement(x)
         elif quantity == "acceleration_z":
             alone = run.acceleration(x)
+        elif quantity == "rotation_y":
+            alone = run.rotations(x)
         else:
             alone = run.section_forces(x)
         size = np.abs(envelope.values).max()
@@ -195,6 +197,90 @@ def test_a_car_moves_as_its_accelerations_say_and_the_deck_adds_to_it():
         bare.car_motion()
     with pytest.raises(rb.InputError, match="car = 3"):
         RUN.car_motion(3)
+
+
+def moving_force(beam, force, speed, time, x, terms, derivative):
+    """w or w' of a simple undamped beam under a force that moves: the sum of sines (Fryba)."""
+    (length,), total = beam.spans, np.zeros_like(time)
+    for n in range(1, terms + 1):
+        k = n * np.pi / length
+        omega, drive = k**2 * np.sqrt(beam.bending_stiffness_vertical / beam.mass), k * speed
+        q = np.sin(drive * time) - drive / omega * np.sin(omega * time)
+        shape = np.sin(k * x) if derivative == 0 else k * np.cos(k * x)
+        total += 2 * force / (beam.mass * length) / (omega**2 - drive**2) * q * shape
+    return total
+
+
+@pytest.mark.parametrize("x", [0.0, 6.1, 20.0])
+def test_a_deck_s_ends_turn_under_a_moving_force_as_in_closed_form(x):
+    beam = rb.Beam("simple", (20.0,), 1e4, 8e9)
+    load, same = rb.AxleTrain([0.0], [1e5]), {"speed": 40.0, "time_step": 2e-4, "tail": 0.0}
+    run = rb.cross(load, beam.deck(8, 0.0), **same)
+    on = (run.time > 0.0) & (run.time < 0.5)
+    known = -moving_force(beam, -1e5, 40.0, run.time, x, 60, 1)[on]
+    size = np.abs(known).max()
+    found = run.rotations(x)["rotation_y"][on]
+    assert np.abs(found - known).max() < 2e-3 * size
+    # Without the modes left out: the first eight terms of the sum, and farther away.
+    kept = run.rotations(x, kept_only=True)["rotation_y"][on]
+    eight = -moving_force(beam, -1e5, 40.0, run.time, x, 8, 1)[on]
+    assert np.abs(kept - eight).max() < 1e-3 * size
+    assert np.abs(kept - known).max() > np.abs(found - known).max()
+
+
+def test_the_static_part_of_the_modes_left_out_is_in_a_rotation():
+    beam = rb.Beam("simple", (20.0,), 1e4, 8e9)
+    load = rb.AxleTrain([0.0], [1e5])
+    runs = [rb.cross(load, beam.deck(count, 0.02), speed=30.0, time_step=2e-4) for count in (2, 12)]
+    few, many = (run.rotations(0.0)["rotation_y"] for run in runs)
+    bare = runs[0].rotations(0.0, kept_only=True)["rotation_y"]
+    size = np.abs(many).max()
+    assert np.abs(few - many).max() < 0.02 * size < np.abs(bare - many).max()
+
+
+def test_rotations_are_slopes_of_the_displacements_beside():
+    step = 0.01
+    for run in (RUN, OFF_AXIS):
+        before, after = (run.displacement(12.0 + d) for d in (-step, step))
+        found = run.rotations(12.0)
+        assert list(found.values) == ["rotation_x", "rotation_y", "rotation_z"]
+        for name, way, sign in (
+            ("rotation_y", "displacement_z", -1.0),
+            ("rotation_z", "displacement_y", 1.0),
+        ):
+            slope = sign * (after[way] - before[way]) / (2 * step)
+            size = np.abs(slope).max()
+            assert np.abs(found[name] - slope).max() < 1e-4 * size + 1e-15
+        assert np.array_equal(found["rotation_x"], run.displacement(12.0)["rotation_x"])
+
+
+def test_slopes_that_a_deck_does_not_have_are_nan():
+    plain = rb.Beam("plain", (20.0,), 1e4, 8e9).deck(3)
+    run = rb.cross(rb.AxleTrain([0.0], [1e5]), plain, speed=20.0, time_step=2e-3)
+    for kept_only in (False, True):
+        found = run.rotations(0.0, kept_only)
+        assert np.isnan(found["rotation_z"]).all() and np.isfinite(found["rotation_y"]).all()
+    lacking = replace(plain, recovery=None)
+    only = rb.cross(rb.AxleTrain([0.0], [1e5]), lacking, speed=20.0, time_step=2e-3)
+    assert only.envelope("shear_vertical") is None
+    assert np.isfinite(only.envelope("rotation_y").values).all()
+
+
+def test_the_envelope_of_shear_is_met_on_both_sides_of_an_axle():
+    """Slowly over a simple span: P (1 - x / L) just before and P x / L just after the axle."""
+    deck = rb.Beam("simple", (20.0,), 1e4, 8e11).deck(3, 0.05)
+    run = rb.cross(rb.AxleTrain([0.0], [1e5]), deck, speed=1.0, time_step=0.02)
+    found = run.envelope("shear_vertical", [5.003, 12.007])
+    for i, x in enumerate(found.x):
+        (low, _), (high, _) = found.at(i).extremes("value")
+        known = -1e5 * (1 - x / 20.0), 1e5 * x / 20.0
+        assert (low, high) == pytest.approx(known, rel=2e-3)
+    turned = run.envelope("rotation_y", [0.0, 20.0])
+    # The largest end rotation under one force: P L^2 / (9 sqrt(3) EI).
+    largest = 1e5 * 400.0 / 9 / np.sqrt(3) / 8e11
+    assert [turned.values[0].max(), -turned.values[1].min()] == pytest.approx(
+        [largest] * 2, rel=2e-3
+    )
 
 
 def test_front_and_rear_of_a_body_move_as_its_bounce_and_pitch_say():

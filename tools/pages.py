@@ -1,5 +1,5 @@
-"""Write the tables of docs/case.md, docs/spectra.md and docs/codes.md, which come from types and
-data; `--check` only says whether they are right."""
+"""Write the tables of docs/case.md, docs/units.md, docs/spectra.md and docs/codes.md, which come
+from types and data; `--check` only says whether they are right."""
 
 import re
 import sys
@@ -20,6 +20,7 @@ def with_clauses(text):
 
 PAGES = {
     "case.md": pages.with_tables,
+    "units.md": pages.with_tables,
     "spectra.md": pages.with_tables,
     "codes.md": with_clauses,
 }

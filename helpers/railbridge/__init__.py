@@ -20,9 +20,9 @@ asked for.
 
 from importlib import import_module as _import_module
 
-from .beams import Beam, Bearing
+from .beams import Beam, Bearing, Pier, PointMass
 from .crossing import NotConvergedError, cross
-from .decks import Deck, History, rayleigh, rayleigh_ratio
+from .decks import Deck, History, ModalDamping, rayleigh, rayleigh_ratio
 from .errors import InputError, InputWarning, ResultWarning
 from .notices import remarks
 from .rails import Rail
@@ -39,9 +39,9 @@ __version__ = "0.1.0"
 _ROOMS = {
     "boxes": ("Box", "BoxMesh", "Pads"),
     "cases": (
-        "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table",
-        "open_study", "planar_car", "speed_envelope", "sprung_mass", "summarize", "sweep",
-        "track_record", "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
+        "Case", "SimpleBridge", "box", "car_parameters", "case", "data_root", "deck",
+        "deck_from_table", "open_study", "planar_car", "speed_envelope", "sprung_mass", "summarize",
+        "sweep", "track_record", "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
     ),
     "checks": ("Assessment", "Requirements", "assess", "assess_run"),
     "codes": ("LoadModel", "hslm_b", "load_model"),
@@ -72,16 +72,16 @@ _MODULES = {
 __all__ = [
     "AntiRollBar", "Assessment", "AxleTrain", "Beam", "Bearing", "Body", "Box", "BoxMesh",
     "CONDENSED", "Case", "Crossing", "Deck", "Dip", "Ensemble", "FadeIn", "Harmonic", "History",
-    "InputError", "InputWarning", "Joint", "Level", "LoadModel", "NotConvergedError", "Notch",
-    "Pads", "Passage", "Rail", "Rails", "RandomResponse", "RandomTrack", "Requirements",
-    "ResultWarning", "Spectrum", "Spring", "Table", "Track", "TrackRecord", "TrackSpectrum",
-    "Train", "Vehicle", "Weld", "amplitude_spectrum", "assess", "assess_run", "box",
-    "car_parameters", "case", "check", "compared", "cross", "data_root", "deck",
-    "deck_from_table", "deviation_percent", "export_track", "hslm_b", "load_model",
-    "open_study", "planar_car", "random_response", "rayleigh", "rayleigh_ratio", "remarks",
-    "spectrum", "speed_envelope", "sprung_mass", "steady_forces", "summarize", "sweep",
-    "track_record", "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
-    "with_wheelsets",
+    "InputError", "InputWarning", "Joint", "Level", "LoadModel", "ModalDamping",
+    "NotConvergedError", "Notch", "Pads", "Passage", "Pier", "PointMass", "Rail", "Rails",
+    "RandomResponse", "RandomTrack", "Requirements", "ResultWarning", "SimpleBridge", "Spectrum",
+    "Spring", "Table", "Track", "TrackRecord", "TrackSpectrum", "Train", "Vehicle", "Weld",
+    "amplitude_spectrum", "assess", "assess_run", "box", "car_parameters", "case", "check",
+    "compared", "cross", "data_root", "deck", "deck_from_table", "deviation_percent",
+    "export_track", "hslm_b", "load_model", "open_study", "planar_car", "random_response",
+    "rayleigh", "rayleigh_ratio", "remarks", "spectrum", "speed_envelope", "sprung_mass",
+    "steady_forces", "summarize", "sweep", "track_record", "train", "train_list", "two_bogie_car",
+    "varied_car", "vehicle", "with_wheelsets",
 ]  # fmt: skip
 
 

@@ -141,6 +141,17 @@ BOUNDS = {
         "a bearing's share of the deck's weight over its vertical spring", 0.0, 0.1, "m",
         "elastomers (EN 1337-3) give way by millimetres",
     ),
+    "pier_height": Bound(
+        "height of a pier", 0.5, 350.0, "m", "abutments to the tallest viaducts", _IN_M,
+        (2.0, 200.0),
+    ),
+    "pier_radius": Bound(
+        "radius of gyration of a pier", 0.05, 10.0, "m", "columns of 0.2 m to walls of 30 m"
+    ),
+    "point_mass": Bound(
+        "a mass at a single place over the deck's own", 0.0, 1.0, "",
+        "diaphragms, gantries and machines weigh less than the deck",
+    ),
     "sleepers": Bound("distance of sleepers", 0.3, 1.5, "m", "0.6 on most lines"),
     "rail_stiffness": Bound(
         "bending stiffness of both rails", 1e6, 5e7, "N m2", "49E1 7.6e6, UIC 60 1.28e7",

@@ -27,42 +27,90 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Protocol
+from typing import Annotated, Protocol
 
 import numpy as np
 
 from . import errors
-from .errors import InputError, Range, Remark, ResultWarning, brief, frozen
+from .errors import InputError, Range, Remark, ResultWarning, brief, check_fields, frozen
 from .guideways import COMPONENTS, Guideway, PiecewiseCubic
 from .response import SampledModes, lagged, sampled_modes
 
 __all__ = [
-    "BEARING_QUANTITIES", "REACTION_QUANTITIES", "SECTION_QUANTITIES", "Deck", "History", "Line",
-    "ModesOnly", "RATIO", "Recovery", "checked_damping", "combined", "cut_group", "damping_ratios",
-    "load_of", "rayleigh", "rayleigh_ratio", "whole_group",
+    "ALPHA", "BEARING_QUANTITIES", "BETA", "Damping", "Deck", "EQUAL", "History", "Line",
+    "ModalDamping", "ModesOnly", "RATIO", "REACTION_QUANTITIES", "Recovery", "SECTION_QUANTITIES",
+    "checked_damping", "combined", "cut_group", "damping_ratios", "load_of", "rayleigh",
+    "rayleigh_ratio", "viscosity", "whole_group",
 ]  # fmt: skip
 
 SECTION_QUANTITIES = {
-    "displacement_y": "m", "displacement_z": "m", "rotation_x": "rad", "moment_vertical": "N m",
-    "moment_lateral": "N m", "torsion": "N m", "shear_vertical": "N", "shear_lateral": "N",
+    "displacement_y": "m", "displacement_z": "m", "rotation_x": "rad", "rotation_y": "rad",
+    "rotation_z": "rad", "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m",
+    "shear_vertical": "N", "shear_lateral": "N",
 }  # fmt: skip
+"""What a deck recovers at a section, with units.
+
+Rotations are right-handed and those of the section, which bearings and the gaps at a deck's ends
+feel: rotation_y = -psi_w and rotation_z = psi_v. Without shear flexibility psi is the slope of the
+deck axis, w' and v'; with it the axis' slope is larger by the shear strain. Where only modes along
+the axis are known, it is the axis' slope.
+"""
 REACTION_QUANTITIES = {"force_x": "N", "force_y": "N", "force_z": "N", "moment_x": "N m"}
-"""What a deck recovers at a section and at a bearing line, with units."""
+"""What a deck recovers at a bearing line, with units."""
 BEARING_QUANTITIES = {**REACTION_QUANTITIES, "moment_y": "N m", "moment_z": "N m"}
 """What a deck recovers of one bearing, with units; moments about the bearing itself."""
 
 
 def load_of(quantity: str) -> str:
     """Return the load of a quantity's own direction, one of `guideways.COMPONENTS`."""
-    if quantity.endswith(("_z", "vertical")):
-        return "z"
-    return "roll" if quantity in ("rotation_x", "torsion", "moment_x") else "y"
+    if quantity in ("rotation_x", "torsion", "moment_x"):
+        return "roll"
+    # A deck that bends up and down turns about y, one that bends sideways about z.
+    about_z = quantity in ("rotation_z", "moment_z")
+    upwards = quantity in ("rotation_y", "moment_y") or quantity.endswith(("_z", "vertical"))
+    return "z" if upwards and not about_z else "y"
 
 
-_EQUAL = 1e-5
+EQUAL = 1e-5
 """Relative difference up to which frequencies count as equal: files give six digits."""
 RATIO = Range(least=0.0, most=0.5)
 """What a damping ratio may be, share of critical."""
+ALPHA, BETA = Range(least=0.0, unit="1/s"), Range(least=0.0, unit="s")
+"""What the two constants of Rayleigh damping may be."""
+
+
+@dataclass(frozen=True)
+class ModalDamping:
+    """A damping ratio of its own for each mode.
+
+    Nothing is known of where it acts, so sections and bearings carry none of its forces.
+
+    Attributes
+    ----------
+    ratios : tuple of float
+        Shares of critical of a deck's first modes, in the order of their frequencies; the last one
+        holds for all higher modes, too.
+
+    Raises
+    ------
+    InputError
+        No ratio, or one that is not within 0 and 0.5.
+    """
+
+    ratios: Annotated[tuple[float, ...], RATIO]
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if not self.ratios:
+            raise InputError("ratios", [], "must hold at least one ratio")
+
+    def of_modes(self, count: int) -> np.ndarray:
+        """Return the ratios of so many modes, shape (count,)."""
+        return np.array([*self.ratios, *self.ratios[-1:] * count])[:count]
+
+
+Damping = ModalDamping | Sequence[float] | float
+"""One ratio for every mode; (alpha, beta) of Rayleigh, 1/s and s; or a ratio for each mode."""
 
 
 def rayleigh(ratio: float, frequencies_hz: Sequence[float]) -> tuple[float, float]:
@@ -83,25 +131,34 @@ def rayleigh(ratio: float, frequencies_hz: Sequence[float]) -> tuple[float, floa
 
 def rayleigh_ratio(alpha: float, beta: float, frequencies_hz: np.ndarray) -> np.ndarray:
     """Return the damping ratio at each frequency (Hz)."""
-    alpha = errors.number("alpha", alpha, least=0.0, unit="1/s")
-    beta = errors.number("beta", beta, least=0.0, unit="s")
+    alpha, beta = ALPHA.checked("alpha", alpha), BETA.checked("beta", beta)
     checked = errors.number if np.ndim(frequencies_hz) == 0 else errors.numbers
     omega = 2 * np.pi * checked("frequencies_hz", frequencies_hz, above=0.0, unit="Hz")
     return alpha / (2 * omega) + beta * omega / 2
 
 
-def checked_damping(damping: Sequence[float] | float) -> Sequence[float] | float:
-    """Return (alpha, beta) of Rayleigh or one ratio for every mode, refused where it is neither."""
+def checked_damping(damping: Damping) -> Damping:
+    """Return a damping, refused where it is none of the kinds that `Damping` has."""
+    if isinstance(damping, ModalDamping):
+        return damping
     if np.isscalar(damping):
         return errors.number("damping", damping, least=0.0)
     return errors.numbers("damping", damping, count=2, least=0.0)
 
 
-def damping_ratios(damping: Sequence[float] | float, frequencies_hz: np.ndarray) -> np.ndarray:
-    """Return the ratio of each mode from (alpha, beta) of Rayleigh or from one ratio."""
+def damping_ratios(damping: Damping, frequencies_hz: np.ndarray) -> np.ndarray:
+    """Return the damping ratio of each mode, of ascending frequencies."""
+    if isinstance(damping, ModalDamping):
+        return damping.of_modes(len(frequencies_hz))
     if np.isscalar(damping):
         return np.full(len(frequencies_hz), damping)
     return rayleigh_ratio(*damping, frequencies_hz)
+
+
+def viscosity(damping: Damping) -> float:
+    """Return beta of Rayleigh damping, s, what sections and bearings carry; 0 of ratios."""
+    known = not isinstance(damping, ModalDamping) and not np.isscalar(damping)
+    return float(damping[1]) if known else 0.0
 
 
 def whole_group(frequencies_hz: np.ndarray, count: int) -> int:
@@ -116,7 +173,7 @@ def whole_group(frequencies_hz: np.ndarray, count: int) -> int:
     count : int
     """
     while 0 < count < len(frequencies_hz):
-        if frequencies_hz[count] > frequencies_hz[count - 1] * (1.0 + _EQUAL):
+        if frequencies_hz[count] > frequencies_hz[count - 1] * (1.0 + EQUAL):
             break
         count += 1
     return count
@@ -187,7 +244,7 @@ def combined(parts: Sequence[tuple[float, Line]]) -> Line:
 
 
 class Recovery(Protocol):
-    """How a deck's displacements, section forces and reactions follow from its state and loads.
+    """How a deck's motion, section forces and reactions follow from its state and loads.
 
     Every deck has one. What it cannot recover it says in `lacks`, in one sentence; empty if
     nothing.
@@ -196,7 +253,7 @@ class Recovery(Protocol):
     lacks: str
 
     def section(self, quantity: str, x: float) -> Line | None:
-        """Return the line of a displacement or section force at x.
+        """Return the line of a displacement, rotation or section force at x.
 
         None where the deck has no such stiffness, or it cannot be recovered.
         """
@@ -209,6 +266,16 @@ class Recovery(Protocol):
 
         None where it does not hold that freedom.
         """
+
+
+_MOTIONS = {
+    # component of the shapes, derivative along the deck, sign
+    "displacement_y": (0, 0, 1.0),
+    "displacement_z": (1, 0, 1.0),
+    "rotation_x": (2, 0, 1.0),
+    "rotation_y": (1, 1, -1.0),
+    "rotation_z": (0, 1, 1.0),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,13 +298,14 @@ class ModesOnly:
     )
 
     def section(self, quantity: str, x: float) -> Line | None:
-        """Return the line of a displacement or rotation at x, None for section forces."""
-        names = [
-            name for name in SECTION_QUANTITIES if name.startswith(("displacement", "rotation"))
-        ]
-        if errors.choice("quantity", quantity, SECTION_QUANTITIES) not in names:
+        """Return the line of a displacement or rotation at x, None for section forces.
+
+        Rotations about y and z are slopes of the shapes: those of the deck's axis.
+        """
+        if errors.choice("quantity", quantity, SECTION_QUANTITIES) not in _MOTIONS:
             return None
-        modal = self.shapes(np.array([x]))[0, :, names.index(quantity)]
+        component, derivative, sign = _MOTIONS[quantity]
+        modal = sign * self.shapes(np.array([x]), derivative)[0, :, component]
         share = modal / (2 * np.pi * self.frequencies_hz) ** 2
         shape = np.einsum("epmc,m->epc", self.shapes.coefficients, share)[:, :, None]
         return Line(modal, PiecewiseCubic(self.shapes.edges, shape), np.nan)
@@ -384,8 +452,8 @@ class Deck(Guideway):
         Parameters
         ----------
         quantity : str
-            A displacement or section force at x = `at`, or a reaction (``force_z``) of the bearing
-            line there.
+            A displacement, rotation or section force at x = `at`, or a reaction (``force_z``) of
+            the bearing line there.
         at : float
             m.
         places : ndarray, shape (n,)

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from .cutoffs import counted
 from .decks import Deck
 from .errors import InputError, InputWarning, Remark, ResultWarning
 from .plausibility import doubts, parts_of
@@ -41,6 +42,7 @@ def remarks(run: Crossing) -> tuple[Remark, ...]:
     found += doubts(*known)
     found += _only_modes(run.deck)
     found += _transient(run)
+    found += _cut_short(run.deck, run.settings)
     found += _coarse(run.deck, run.settings)
     found += _coarse_contact(run.train, run.settings)
     found += _apart(*known)
@@ -61,6 +63,7 @@ def remarks_before(
     found: list[Remark] = [remark.moved("deck") for remark in deck.remarks]
     found += doubts(train, deck, track, settings)
     found += _only_modes(deck)
+    found += _cut_short(deck, settings)
     found += _coarse(deck, settings)
     found += _coarse_contact(train, settings)
     found += _apart(train, deck, track, settings)
@@ -124,6 +127,19 @@ def _transient(run: Crossing) -> list[Remark]:
         "before the deck."
     )
     return [InputWarning("lead_in", text)]
+
+
+def _cut_short(deck: Deck, settings: Settings) -> list[Remark]:
+    """Say where the deck's modes end below the frequency up to which accelerations want them."""
+    limit, last = settings.accelerations_up_to_hz, float(deck.frequencies_hz.max())
+    if np.isinf(limit) or counted([limit], last)[0]:
+        return []
+    text = (
+        f"= {settings.acceleration_modes}: modes up to {limit:.4g} Hz count in the deck's "
+        f"accelerations, and it has only {len(deck.frequencies_hz)}, up to {last:.4g} Hz: some may "
+        "be missing. Raise deck.modes."
+    )
+    return [ResultWarning("acceleration_modes", text)]
 
 
 def _coarse(deck: Deck, settings: Settings) -> list[Remark]:
@@ -300,8 +316,8 @@ def _moving_ends(deck: Deck) -> list[Remark]:
         return []
     how = "at full weight" if deck.rail is None else "by quarters and halves of their weight"
     text = (
-        "An end of the deck moves (elastic bearings or an overhang): wheels step on or off there "
-        f"{how}, so accelerations are not to be trusted. Try a rail on a bed, "
+        "An end of the deck moves (elastic bearings, piers or an overhang): wheels step on or off "
+        f"there {how}, so accelerations are not to be trusted. Try a rail on a bed, "
         "deck.rail = { bending_stiffness = 1.28e7, foundation = 1e8 }."
     )
     return [ResultWarning("", text)]

@@ -35,8 +35,8 @@ from .units import G
 from .vehicles import Body, Vehicle
 
 __all__ = [
-    "UNUSUAL", "damping_frequencies", "doubts", "first_vertical", "longest_span", "parts_of",
-    "scale_in_doubt",
+    "UNUSUAL", "damping_constants", "damping_frequencies", "doubts", "first_vertical",
+    "longest_span", "parts_of", "scale_in_doubt",
 ]  # fmt: skip
 
 UNUSUAL = "modes.unusual", "= true: a first frequency beyond those of bridges is accepted."
@@ -354,6 +354,34 @@ def damping_frequencies(field: str, given: Sequence[float], deck: Deck) -> list[
         return []
     text = f"= {list(given)} Hz, the first vertical frequency is {signs.vertical:.3g} Hz: "
     return [InputWarning(field, text + "given in rad/s?")]
+
+
+def damping_constants(field: str, alpha: float, beta: float, deck: Deck) -> list[InputWarning]:
+    """Return the doubt about alpha (1/s) and beta (s) of Rayleigh damping, given as they are.
+
+    Of the one that dampens the first vertical mode most.
+    """
+    signs, usual = _signs(deck), BOUNDS["damping_ratio"]
+    if signs.vertical is None or usual.holds(signs.ratio):
+        return []
+    if _explained(deck) or _scale(deck, signs):
+        return []
+
+    def shares(first: float, second: float) -> tuple[float, float]:
+        omega = 2 * np.pi * signs.vertical
+        return first / (2 * omega), second * omega / 2
+
+    of_mass, of_stiffness = shares(alpha, beta)
+    stiff = of_stiffness > of_mass
+    name, value = ("beta", f"{beta:g} s") if stiff else ("alpha", f"{alpha:g} 1/s")
+    question = "is its decimal point right"
+    if usual.holds(sum(shares(beta, alpha))):
+        question = "are alpha and beta exchanged"
+    elif stiff and usual.holds(of_mass + of_stiffness / 1e3):
+        question = "given in ms"
+    text = f"= {value} gives {100 * signs.ratio:.3g} % of critical in the first vertical mode, "
+    text += f"{signs.vertical:.3g} Hz: {question}?"
+    return [InputWarning(f"{field}.{name}", text)]
 
 
 def _places(deck: Deck) -> list[InputWarning]:

@@ -1,6 +1,6 @@
 """What a computed crossing can be asked.
 
-Displacements, section forces, reactions, wheel forces, spectra, extremes and envelopes.
+Displacements, rotations, section forces, reactions, wheel forces, spectra, extremes and envelopes.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 
 from . import errors
 from .coupling import CoupledCar, Coupling, DeckState, ForcesAdded
+from .cutoffs import counted
 from .decks import (
     BEARING_QUANTITIES,
     REACTION_QUANTITIES,
@@ -33,12 +34,14 @@ from .windows import Windows
 
 __all__ = ["ENVELOPE", "Crossing", "Deviations", "Envelope"]
 
-ENVELOPE = ("displacement_z", "acceleration_z", "moment_vertical", "moment_lateral", "torsion")
+ENVELOPE = (
+    "displacement_z", "acceleration_z", "moment_vertical", "moment_lateral", "torsion",
+    "shear_vertical", "rotation_y",
+)  # fmt: skip
 """Quantities that have an envelope along the deck."""
 
-_DISPLACEMENTS = {
-    q: unit for q, unit in SECTION_QUANTITIES.items() if q.startswith(("displacement", "rotation"))
-}
+_DISPLACEMENTS = {"displacement_y": "m", "displacement_z": "m", "rotation_x": "rad"}
+_ROTATIONS = {q: unit for q, unit in SECTION_QUANTITIES.items() if q.startswith("rotation")}
 _FORCES = tuple(q for q in SECTION_QUANTITIES if q.startswith(("moment", "torsion", "shear")))
 
 
@@ -407,9 +410,16 @@ class Crossing:
         return self.states[self.iteration]
 
     @property
+    def acceleration_modes(self) -> np.ndarray:
+        """Which of the deck's modes count in its accelerations, shape (modes,) of bool."""
+        return counted(self.deck.frequencies_hz, self.settings.accelerations_up_to_hz)
+
+    @property
     def _modal_acceleration(self) -> np.ndarray:
         s = self.state
-        return self.deck.acceleration(s.q, s.velocity, s.modal_force)
+        found = self.deck.acceleration(s.q, s.velocity, s.modal_force)
+        found[~self.acceleration_modes] = 0.0
+        return found
 
     def displacement(self, x: float, self_weight: bool = False, kept_only: bool = False) -> History:
         """Return displacement_y, displacement_z (m) and rotation_x (rad) of the deck axis at x (m).
@@ -437,6 +447,29 @@ class Crossing:
             values["displacement_z"] = values["displacement_z"] + line.self_weight
         return History(self.time, values, _DISPLACEMENTS, f"x = {x:g} m")
 
+    def rotations(self, x: float, kept_only: bool = False) -> History:
+        """Return rotation_x, rotation_y and rotation_z (rad) of the section at x (m).
+
+        Right-handed: rotation_y is -w' and rotation_z is v' of a deck that is rigid in shear; see
+        `decks.SECTION_QUANTITIES`. NaN where the deck does not turn that way.
+
+        Parameters
+        ----------
+        x : float
+            m along the deck.
+        kept_only : bool
+            Whether the modes left out are not counted.
+        """
+        x = errors.place("x", x, (0.0, self.deck.length))
+        lines = [self.deck.recovery.section(name, x) for name in _ROTATIONS]
+        if kept_only:
+            nothing = np.full(len(self.time), np.nan)
+            found = [nothing if line is None else line.modal @ self.state.q for line in lines]
+        else:
+            found = self._displaced(lines)
+        values = dict(zip(_ROTATIONS, found, strict=True))
+        return History(self.time, values, _ROTATIONS, f"x = {x:g} m")
+
     def _displaced(self, lines: Sequence[Line | None]) -> list[np.ndarray]:
         """Return the displacements that lines describe, NaN for None."""
         known = [line for line in lines if line is not None]
@@ -456,9 +489,9 @@ class Crossing:
     def acceleration(self, x: float) -> History:
         """Return acceleration_y, acceleration_z (m/s2) and acceleration_roll (rad/s2) at x (m).
 
-        Of the modes kept: state the cut-off, the highest of their frequencies, with it. Under
-        Rayleigh damping it settles with more modes, under one ratio for all slowly, and undamped
-        not at all.
+        Of the `acceleration_modes`: state the cut-off, the highest of their frequencies, with it.
+        Under Rayleigh damping it settles with more modes, under one ratio for all slowly, and
+        undamped not at all.
         """
         units = "m/s2", "m/s2", "rad/s2"
         return self._motion("acceleration", x, self._modal_acceleration, units)
@@ -584,7 +617,8 @@ class Crossing:
         quantity : str
             One of `ENVELOPE`.
         x : sequence of float, optional
-            m; default 41 places, ends included.
+            m; default 41 places, ends included. At an inner bearing shear is that on the face just
+            before it.
 
         Returns
         -------
@@ -603,7 +637,7 @@ class Crossing:
         lines = [deck.recovery.section(quantity, place) for place in x]
         if lines[0] is None:
             return None
-        if quantity == "displacement_z":
+        if quantity in ("displacement_z", "rotation_y"):  # which never jump between two samples
             return Envelope(x, self.time, np.array(self._displaced(lines)))
         values = [
             deck.recovered(line, state.q, state.velocity, state.modal_force, static)

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 
 from . import errors
+from .cutoffs import counted, different, en1990_limit
 from .decks import Deck
 from .errors import InputError, Range, brief, check_fields
 from .guideways import Guideway
@@ -107,6 +108,10 @@ class Options:
     feedback : {"all", "vertical"}
         What the train feels of the deck: its whole motion, or only the vertical displacement,
         without twist (a guess at the paper's reading).
+    acceleration_modes : {"all", "en1990"} or float
+        Which modes count in the deck's accelerations, and in nothing else: all that the deck has;
+        those up to the largest of 30 Hz, 1.5 times its first and its third different frequency (EN
+        1990, A2.4.4); or those up to a frequency, Hz. The others are left out, nothing is filtered.
     """
 
     __repr__ = brief
@@ -136,6 +141,10 @@ class Options:
     contact: Literal["permanent", "hertz"] = "permanent"
     excitation: Literal["wheels", "car"] = "wheels"
     feedback: Literal["all", "vertical"] = "all"
+    acceleration_modes: (
+        Annotated[float, Range(above=0.0, unit="Hz", remedy="Or use 'all' or 'en1990'")]
+        | Literal["all", "en1990"]
+    ) = "all"
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -161,6 +170,8 @@ class Settings(Options):
         train is felt before.
     auto : bool
         Whether the interaction was chosen, not given.
+    accelerations_up_to_hz : float
+        Up to which frequency modes count in the deck's accelerations; infinite for all.
     """
 
     __repr__ = brief
@@ -168,6 +179,7 @@ class Settings(Options):
     samples: int
     before: int = 0
     auto: bool = False
+    accelerations_up_to_hz: float = np.inf
 
     @property
     def passage(self) -> Passage:
@@ -222,6 +234,7 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
         "track_offset": _track_offset(train, deck, asked.track_offset),
         "samples": int(np.ceil(reach / advance + asked.tail / step)) + 1 + before,
         "before": before,
+        "accelerations_up_to_hz": _accelerations_up_to(deck, asked.acceleration_modes),
     }
     settings = Settings(**(vars(asked) | chosen))
     _refuse_short_rails(train, deck, track, settings)
@@ -239,6 +252,25 @@ def _interaction(train: AnyTrain, asked: Options) -> str:
     if of_passes or asked.tolerance_of != "forces":
         return "iterate"
     return "direct" if _stiff(train) else "iterate"
+
+
+def _accelerations_up_to(deck: Guideway, chosen: float | str) -> float:
+    """Return up to which frequency (Hz) modes count in accelerations, infinite for all."""
+    if chosen == "all" or not isinstance(deck, Deck):
+        return np.inf
+    known = deck.frequencies_hz
+    if chosen != "en1990":
+        if not counted(known, chosen).any():
+            allowed = f"leaves no mode: the first has {known.min():.4g} Hz"
+            raise InputError("acceleration_modes", chosen, allowed, "Give it in Hz, or use 'all'")
+        return chosen
+    limit = en1990_limit(known)
+    if limit is None:
+        allowed = "asks for the third frequency of the deck, and of its "
+        allowed += f"{len(known)} modes only {len(different(known))} differ in frequency"
+        remedy = "Make the deck with more modes, or give a frequency in Hz"
+        raise InputError("acceleration_modes", chosen, allowed, remedy)
+    return limit
 
 
 def _stiff(train: AnyTrain) -> bool:
@@ -433,7 +465,7 @@ def bytes_needed(train: AnyTrain, deck: Guideway, settings: Settings, points: in
     state = 10.0 * deck.coordinates * samples + passes * samples
     forces = 6.0 * wheels * samples + 20.0 * len(cars) * samples
     iterated = (passes + 8.0) * 2 * wheels * on_deck
-    summary = (5.0 * STATIONS + 9.0 * points) * samples
+    summary = (7.0 * STATIONS + 12.0 * points) * samples
     contacts = 0.0
     if s.contact == "hertz":
         # What the rail gives every car and what its contacts carry, on this deck and a rigid one.

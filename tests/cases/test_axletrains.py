@@ -28,6 +28,7 @@ SHIPPED = {
     "ICE2": (350.52, 56, 6936.0, (19.31, 112.0)),
     "Talgo350": (356.05, 40, 6800.0, (67.52, 170.0)),
     "AVE-S100": (393.31, 52, 8429.2, (200.15, 172.1)),
+    "KTX": (380.16, 46, 7820.0, (38.98, 170.0)),
 }
 
 
@@ -153,7 +154,7 @@ def test_the_list_shows_every_train():
     listed = train_list()
     assert listed.names[:10] == tuple(f"HSLM-A{i}" for i in range(1, 11))
     assert set(listed.names) >= {"A", "D4", "E5", *shelf.data_names("trains")}
-    assert len(listed) == len(set(listed.names)) == 10 + 12 + 3 and "HSLM-B" not in listed.names
+    assert len(listed) == len(set(listed.names)) == 10 + 12 + 4 and "HSLM-B" not in listed.names
     for row in listed:
         train = rb.train(row.name)
         assert (row.length, row.weight, row.axles) == (

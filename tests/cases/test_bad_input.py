@@ -27,6 +27,10 @@ OWN_DECK = {
     "damping": {"modal": 0.01},
     "modes": 5,
 }
+PIER = {
+    "height": 12.0, "youngs_modulus": 33e9, "area": 4.0, "second_moment_along": 2.0,
+    "second_moment_across": 5.0,
+}  # fmt: skip
 
 
 @pytest.fixture(autouse=True)
@@ -195,6 +199,33 @@ def test_what_a_case_may_not_hold(path, value, words):
         ),
         ({"damping": {"ratio": 0.01, "frequencies_hz": [2, 2]}}, ["two different"]),
         ({"damping": 0.03}, ["damping = 0.03", "table"]),
+        ({"damping": {"alpha": -1.0}}, ["damping.alpha = -1", "at least 0 1/s"]),
+        ({"damping": {"alpha": 1.0, "beta": "1 ms"}}, ["damping.beta = '1 ms'", "at least 0 s"]),
+        ({"damping": {"beta": 1e-3, "modal": 0.01}}, ["damping.beta: unknown key"]),
+        ({"damping": {}}, ["damping.ratio: is missing"]),
+        ({"damping": {"per_mode": []}}, ["damping.per_mode = ", "at least one ratio"]),
+        ({"damping": {"per_mode": 0.01}}, ["damping.per_mode = 0.01", "list of numbers"]),
+        (
+            {"damping": {"per_mode": [0.01, 1.0]}},
+            [r"damping.per_mode\[2\] = 1", "at most 0.5"],
+        ),
+        ({"point_mass": {"x": 3.0, "mass": 1e3}}, [r"\[\[point_mass\]\]"]),
+        ({"point_mass": [{"x": 3.0}]}, [r"point_mass\[1\].mass: is missing"]),
+        ({"point_mass": [{"x": 3.0, "mass": -1.0}]}, [r"point_mass\[1\].mass = -1", "above 0 kg"]),
+        ({"point_mass": [{"x": 37.0, "mass": 1.0}]}, [r"point_mass\[1\].x = 37", "at most 36 m"]),
+        (
+            {"bearing": [{"x": 0.0, "fixed": "z", "pier": {"height": 3.0}}]},
+            [r"bearing\[1\].pier.youngs_modulus: is missing"],
+        ),
+        (
+            {"bearing": [{"x": 0.0, "fixed": "z", "pier": PIER | {"height": 0.0}}]},
+            [r"bearing\[1\].pier.height = 0", "above 0 m"],
+        ),
+        (
+            {"bearing": [{"x": 0.0, "fixed": "z", "pier": PIER | {"height": 1e-7}}]},
+            [r"bearing\[1\].pier.second_moment_along = 2", "stiffer"],
+        ),
+        ({"bearing": [{"x": 0.0, "pier": PIER}]}, [r"bearing\[1\].fixed: is missing"]),
         ({"width": -3.0}, ["width = -3", "above 0"]),
         ({"tracks": {"left": 3.0}, "width": 4.0}, ["tracks.left = 3", "at most 2"]),
         ({"elements": 10**6}, ["elements", "at most"]),
@@ -398,7 +429,7 @@ FULL = {
     "run": {"speed": 20.0, "time_step": 2.5e-4, "loads": "wheels", "interaction": "iterate",
     "tolerance": 1e-6, "tolerance_of": "displacement", "lead_in": 10.0,
             "tail": 1.0, "max_iterations": 9, "iterations": 2, "relaxation": 0.5,
-            "excitation": "wheels", "feedback": "all"},
+            "excitation": "wheels", "feedback": "all", "acceleration_modes": 60.0},
     "output": {"points": [18.0]},
     "checks": {"line_speed": 44.4, "track": "ballasted", "kind": "steel", "simple": True,
                "comfort": "good", "alpha": 1.21, "track_twist": 1e-3},

@@ -359,3 +359,21 @@ def test_checks_are_refused_by_their_keys(given, said):
         return
     with pytest.raises(rb.InputError, match=said):
         changed(checks=given)
+
+
+@pytest.mark.parametrize(
+    ("train", "words"),
+    [
+        ({"name": "HSLM-A3"}, "HSLM-A3"),
+        ({"vehicle": "xia2000_planar", "cars": 2}, "2 x xia2000_planar"),
+        ({"axles": [0.0, 3.0], "loads": [1e5, 1e5]}, "the train"),
+    ],
+)
+def test_a_deck_and_a_train_are_called_by_their_names(train, words):
+    pytest.importorskip("xarray")
+    own = rb.SimpleBridge(
+        span=15.0, mass=1e4, kind="composite", line_speed=40.0, frequency=6.0, name="A 12, km 7"
+    ).case(train)
+    assert own.deck.name == "A 12, km 7"
+    found = own.assess(speeds=2, stations=5)
+    assert found.envelope.train.values.tolist() == [words]

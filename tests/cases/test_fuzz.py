@@ -108,8 +108,22 @@ tail = 0.1
 length = 12.0
 bending_stiffness_vertical = 5e9
 mass = 8000.0
-damping = { modal = 0.02 }
+damping = { per_mode = [0.02, 0.01] }
 modes = 3
+[[deck.point_mass]]
+x = 4.0
+mass = 5e3
+y = 1.0
+z = -0.5
+roll_inertia = 1e3
+[[deck.bearing]]
+x = 0.0
+fixed = "x z"
+pier = { height = 8.0, youngs_modulus = 33e9, area = 2.0, second_moment_along = 0.5, \
+second_moment_across = 0.5 }
+[[deck.bearing]]
+x = 12.0
+fixed = "z"
 [train]
 file = "axles.csv"
 track = 0.0
@@ -123,7 +137,7 @@ tail = 0.1
 length = 12.0
 bending_stiffness_vertical = 5e9
 mass = 8000.0
-damping = { modal = 0.02 }
+damping = { alpha = 0.5, beta = 1e-4 }
 modes = 3
 [train]
 name = "D4"

@@ -524,6 +524,93 @@ def test_parts_of_vehicle_files_that_cannot_be_are_named(tmp_path, old, new, say
     assert says in str(refused.value)
 
 
+# ---- damping, masses and piers
+
+PIER = {
+    "height": 12.0, "youngs_modulus": 33e9, "area": 4.0, "second_moment_along": 2.0,
+    "second_moment_across": 5.0,
+}  # fmt: skip
+IDENTIFIED = tomllib.loads(shelf.data_file("decks", "viaduct36_identified").read_text("utf-8"))
+
+
+@pytest.mark.parametrize(
+    ("table", "damping"),
+    [
+        ({"alpha": 1.0364, "beta": 4.87e-4}, (1.0364, 4.87e-4)),
+        ({"alpha": 1.0}, (1.0, 0.0)),
+        ({"beta": 1e-3}, (0.0, 1e-3)),
+        ({"per_mode": [0.03, 0.02]}, rb.ModalDamping((0.03, 0.02))),
+        ({"modal": 0.01}, 0.01),
+        ({"ratio": 0.03, "frequencies_hz": [3.307, 16.3]}, rb.rayleigh(0.03, [3.307, 16.3])),
+    ],
+)
+def test_every_maker_of_decks_takes_every_damping(table, damping, tmp_path):
+    folder = exchange.export_modes(rb.deck("viaduct36"), tmp_path)
+    plain = tomllib.loads(folder.read_text("utf-8"))
+    files = exchange.beside(plain, folder.parent)["modes"]
+    box = decks.box_from_table("box", IDENTIFIED)
+    section = rb.deck("viaduct36").recovery.beam
+    mesh = {"along": 8, "web": 2, "slab": 2, "cantilever": 1}
+    shell = {**IDENTIFIED, "model": "shell", "mesh": mesh, "modes": 4, "damping": table}
+    for made, alike in [
+        (rb.deck_from_table("b", changed(damping=table)), beam_of(
+            rb.deck_from_table("b", TABLE)).deck(damping=damping)),
+        (rb.case("paper").replace({"deck.damping": table}).deck, section.deck(20, damping)),
+        (rb.deck_from_table("box", {**IDENTIFIED, "model": "beam", "damping": table}),
+         box.beam_deck(IDENTIFIED.get("modes"), damping)),
+        (rb.deck_from_table("s", shell), box.shell_deck(4, damping, rb.BoxMesh(**mesh))),
+        (rb.deck_from_table("m", {"modes": files, "damping": table}),
+         exchange.ModesTable(**files).deck(damping)),
+    ]:  # fmt: skip
+        assert made.damping_ratios == pytest.approx(alike.damping_ratios, rel=1e-9)
+        assert made.internal_damping == alike.internal_damping
+        if isinstance(damping, rb.ModalDamping):
+            assert made.damping_ratios[:3].tolist() == [0.03, 0.02, 0.02]
+    only_beams_know_where = 0.0 if not isinstance(damping, tuple) else damping[1]
+    assert rb.deck_from_table("b", changed(damping=table)).internal_damping == only_beams_know_where
+
+
+def test_point_masses_of_a_file_stand_where_it_says():
+    own = [{"x": 9.0, "mass": 4e4, "y": 1.0, "z": -0.5, "roll_inertia": 2e4}, {"x": 20, "mass": 1}]
+    deck = rb.deck_from_table("b", changed(point_mass=own))
+    expected = (rb.PointMass(9.0, 4e4, 1.0, -0.5, 2e4), rb.PointMass(20.0, 1.0))
+    assert beam_of(deck).point_masses == expected
+    plain = rb.deck_from_table("b", TABLE)
+    assert deck.frequencies_hz[0] < 0.99 * plain.frequencies_hz[0]
+    weights = [
+        sum(d.recovery.reaction("force_z", x).self_weight for x in d.supports)
+        for d in (deck, plain)
+    ]
+    assert weights[0] - weights[1] == pytest.approx(40001.0 * 9.81, rel=1e-6)
+
+
+def test_a_box_takes_point_masses_as_a_beam_only():
+    own = {"point_mass": [{"x": 18.0, "mass": 3e4, "y": 2.0}]}
+    deck = rb.deck_from_table("box", {**IDENTIFIED, "model": "beam", **own})
+    assert beam_of(deck).point_masses == (rb.PointMass(18.0, 3e4, 2.0),)
+    with pytest.raises(InputError, match="box: point_mass: belongs to the beam model"):
+        rb.deck_from_table("box", {**IDENTIFIED, "model": "shell", **own})
+    with pytest.raises(InputError, match=r"box: point_mass\[1\]\.x = 37.0: must be"):
+        far = {"point_mass": [{"x": 37.0, "mass": 3e4}]}
+        rb.deck_from_table("box", {**IDENTIFIED, "model": "beam", **far})
+    heavy = rb.deck_from_table(
+        "box", {**IDENTIFIED, "model": "beam", "point_mass": [{"x": 18.0, "mass": 3e7}]}
+    )
+    assert "point_mass[1].mass" in [remark.field for remark in heavy.remarks]
+
+
+def test_a_pier_of_a_file_stands_below_its_bearing():
+    bearing = [{**TABLE["bearing"][0], "pier": PIER}, *TABLE["bearing"][1:]]
+    deck = rb.deck_from_table("b", changed(bearing=bearing))
+    first = beam_of(deck).bearings[0]
+    assert first.pier == rb.Pier(12.0, 33e9, 4.0, 2.0, 5.0)
+    along = 3 * 33e9 * 2.0 / 12.0**3
+    assert first.springs["x"] == pytest.approx(1 / (1 / 6e9 + 1 / along))
+    bearing[0]["pier"] = {**PIER, "height": 400.0}
+    doubts = rb.deck_from_table("b", changed(bearing=bearing)).remarks
+    assert [r.field for r in doubts] == ["bearing[1].pier.height"]
+
+
 BED = {"bending_stiffness": 1.28e7, "foundation": 1e8}
 
 

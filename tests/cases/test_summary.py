@@ -175,14 +175,16 @@ def test_a_slow_train_gives_a_dynamic_factor_of_one(plain_deck):
     summary = plain_deck.replace(
         {"run.speed": 0.5, "run.time_step": 0.02, "deck.damping.modal": 0.2}
     ).summary()
-    for name in ("displacement_z", "moment_vertical"):
+    for name in ("displacement_z", "moment_vertical", "rotation_y"):
         assert summary["points"][0][name]["dynamic_factor"] == pytest.approx(1.0, abs=2e-3)
 
 
 def test_what_is_not_there_is_null_not_zero(plain_deck):
     summary = plain_deck.summary()
     point = summary["points"][0]
-    for name in ("displacement_y", "rotation_x", "acceleration_y", "moment_lateral", "torsion"):
+    for name in (
+        "displacement_y", "rotation_x", "rotation_z", "acceleration_y", "moment_lateral", "torsion"
+    ):  # fmt: skip
         assert point[name] is None
     assert point["acceleration_z"]["static"] == 0.0
     assert point["acceleration_z"]["dynamic_factor"] is None
@@ -317,6 +319,12 @@ def test_histories_start_with_t_and_name_their_units(run):
         assert all(c.endswith(")") for c in table.columns[1:])
         assert len(table.columns) == len(set(table.columns)) == len(table.values)
         assert np.array_equal(table.values[0], run.time)
+    points = tables["points"]
+    assert points.columns[1 : 1 + len(QUANTITIES)] == [
+        f"x=9 {name} ({unit})" for name, unit in QUANTITIES.items()
+    ]
+    turned = points.values[points.columns.index("x=9 rotation_y (rad)")]
+    assert np.array_equal(turned, run.rotations(9.0)["rotation_y"])
     assert len(tables["wheels"].columns) == 1 + 2 * 8
     ways = [f"car 1 {place} acceleration_{way} (m/s2)"
             for place in ("front", "middle", "rear") for way in "yz"]  # fmt: skip

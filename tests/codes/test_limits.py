@@ -68,6 +68,7 @@ def test_what_rests_on_memory_says_so():
         ([20.0, 21.0, 22.0, 30.5], 30.0, 3),
         ([8.0, 20.0, 45.0, 45.1], 45.0, 3),
         ([8.0, 20.0, 45.0], 45.0, 3),
+        ([8.0, 8.0, 8.0, 20.0, 20.0, 20.0, 45.0, 45.0001, 80.0], 45.0001, 8),  # spans alike
     ],
 )
 def test_modes_up_to_the_largest_of_three(frequencies, limit, kept):
@@ -83,6 +84,7 @@ def test_without_a_third_mode_nothing_is_decided():
     found = kept_modes([5.0, 40.0])
     assert found.numbers == () and not found.complete
     assert "third frequency is not known, only 2" in found.limit.reason
+    assert not frequency_limit([8.0, 8.0, 8.0, 20.0]).decided  # spans alike count once
 
 
 @pytest.mark.parametrize("bad", [[], [3.0, 2.0, 5.0], [0.0, 1.0, 2.0], 5.0, ["a"], [1, 2, np.nan]])

@@ -199,6 +199,10 @@ def test_lists_and_schema(capsys):
     assert code == 0 and out[0] == "trains"
     assert "  HSLM-A1             50 axles, 397.5 m, 8500 kN" in out
     assert any(line.startswith("  ICE2 ") for line in out)
+    code, out, _ = command(capsys, "list", "decks")
+    said = {line.split()[0]: line for line in out[1:]}
+    assert set(said) == set(shelf.data_names("decks"))  # a name stands apart from what is said
+    assert "bridge at Antoing" in said["antoing50"]
     code, out, _ = command(capsys, "schema")
     assert json.loads("\n".join(out)) == SCHEMA
     code, out, _ = command(capsys, "check", "paper")

@@ -101,8 +101,8 @@ def test_what_cannot_be_drawn_is_said(here, capsys):
     code, _, err = command(capsys, "--out", "o", *asked)
     assert code == 0 and set(os.listdir("o")) == {"displacement_at_6m.png"}
     assert err[-3:] == [
-        "railbridge: no wheels: bare axle loads are constant",
-        "railbridge: no cars: bare axle loads have no bodies",
+        "railbridge: left out: wheels (bare axle loads are constant)",
+        "railbridge: left out: cars (bare axle loads have no bodies)",
         "railbridge: 1 picture written to o",
     ]
     # What stood there of an earlier train is gone, so that no picture shows another run.

@@ -171,6 +171,9 @@ def test_the_example_is_the_shipped_deck():
             here.displacement(18.0, kept_only=True)[name],
         )
         assert np.max(np.abs(a)) == pytest.approx(np.max(np.abs(b)), rel=limit)
+    for name, limit in (("rotation_y", 3e-3), ("rotation_z", 1e-2)):
+        a, b = (run.rotations(6.0, kept_only=True)[name] for run in (there, here))
+        assert np.abs(b).max() > 0.0 and np.abs(a - b).max() < limit * np.abs(b).max()
 
 
 def test_units_and_axes_of_the_model_do_not_matter(folder):

@@ -34,7 +34,7 @@ def _bending(stiffness, shear, h, sign):
 @dataclass
 class Frame:
     """A deck of equal elements between given bearings: (x, y, z, {direction from 0 to 5:
-    stiffness})."""
+    stiffness}), with masses at single places: (x, y, z, mass, roll inertia)."""
 
     length: float
     count: int
@@ -50,6 +50,7 @@ class Frame:
     rotary_vertical: float = 0.0
     centroid: float = 0.0
     bearings: list = field(default_factory=list)
+    masses: list = field(default_factory=list)
 
     def __post_init__(self):
         size, h = 6 * (self.count + 1), self.length / self.count
@@ -74,6 +75,9 @@ class Frame:
             self.stiffness[here, here] += element
             for node in (e, e + 1):
                 self.mass_matrix[6 * node : 6 * node + 6, 6 * node : 6 * node + 6] += lump
+        for x, y, z, mass, roll in self.masses:
+            inertia = np.diag([mass] * 3 + [roll, 0.0, 0.0])
+            self.mass_matrix[self.at(x), self.at(x)] += arm(y, z).T @ inertia @ arm(y, z)
         keys = [(i, d) for i, (_, _, _, springs) in enumerate(self.bearings) for d in springs]
         self.rows, self.springs, self.keys = np.zeros((len(keys), size)), np.zeros(len(keys)), keys
         for row, (i, direction) in enumerate(keys):

@@ -91,7 +91,7 @@ def test_what_is_drawn_is_what_the_run_says(run):
     forces = curves(pieces(run)["section_forces_at_9m"].draw())
     (line,) = forces["vertical shear (kN)"].values()
     assert np.allclose(line[:, 1], 1e-3 * run.section_forces(9.0)["shear_vertical"])
-    assert len(forces) == 5
+    assert len(forces) == len(run.section_forces(9.0).values) >= 5
     assert len(pieces(run)["envelope"].draw().axes) == len(ENVELOPE)
     upper, lower = pieces(run)["iterations"].draw().axes
     assert np.allclose(

@@ -48,6 +48,11 @@ def speeds_and_waves():
     return xr.Dataset(variables, {"train": ["A1", "A2"], "speed": [40.0, 50.0, 60.0]})
 
 
+def judged():
+    limit = rb.codes.acceleration_limit("ballasted")
+    return rb.codes.Verdicts([rb.codes.judge(value, limit) for value in (1.0, 4.0, None)])
+
+
 @pytest.fixture(scope="module")
 def figures(case, run):
     """One call of every figure, by name."""
@@ -93,6 +98,7 @@ def figures(case, run):
         "vehicle": lambda: plots.vehicle(car),
         "vehicle_mode": lambda: plots.vehicle_mode(car, 4),
         "velocity": lambda: plots.velocity(run, 18.0),
+        "utilisation": lambda: plots.utilisation(judged()),
         "wave_shares": lambda: plots.wave_shares(drawn, sag, 0.5),
         "wheel_force": lambda: plots.wheel_force(run),
         "wheel_forces": lambda: plots.wheel_forces(run, 2),
@@ -143,6 +149,7 @@ LABELS = {
     "vehicle": (["x (m)", "y (m)"], ["height, schematic", "y (m)"]),
     "vehicle_mode": (["x (m)", "y (m)"], ["height, schematic", "y (m)"]),
     "velocity": ([TIME], ["vertical velocity (mm/s)"]),
+    "utilisation": (["utilisation, value / limit (-)"], []),
     "wave_shares": (["waves up to this length (m)"], ["share of the variance"]),
     "wheel_force": ([TIME], ["wheel force on the deck (kN)"]),
     "wheel_forces": ([TIME], ["force (kN)"]),
@@ -348,6 +355,17 @@ def test_spectra_titles_give_equation_3(run):
     assert titles[2] == f"i = 2, Eq. 3: {run.deviations.from_rigid[1]:+.3f} %"
 
 
+def test_spectra_on_level_track_are_seen_whole_and_have_no_equation_3(run):
+    """The rigid deck's force is constant there: the others stood cut off in its scale."""
+    level = rb.cross(run.train, run.deck, speed=60.0, time_step=4e-3, iterations=2)
+    axes = plots.spectra(level)
+    assert [ax.get_title(loc="left") for ax in axes] == ["i = 0, rigid deck", "i = 1", "i = 2"]
+    highest = 1e-3 * max(level.at(i).spectrum.amplitude.max() for i in (1, 2))
+    assert highest > 0.1
+    for ax in axes:
+        assert ax.get_ylim()[0] == 0.0 and ax.get_ylim()[1] == pytest.approx(1.05 * highest)
+
+
 def labelled(ax, label):
     return next(line for line in ax.lines if line.get_label() == label)
 
@@ -434,7 +452,7 @@ def test_a_quantity_s_factor_is_that_of_its_unit(name):
     style = QUANTITY_STYLES[name]
     assert style.factor == DRAWN[style.unit]
     for direction, mark in (("vertical", ("_z", "vertical")), ("lateral", ("_y", "lateral"))):
-        if name.endswith(mark) and not name.startswith("moment_"):
+        if name.endswith(mark) and not name.startswith(("moment_", "rotation_")):
             assert style.words.startswith(direction), name
 
 
@@ -665,6 +683,8 @@ def test_twist_is_drawn_as_the_rise_of_the_edge(width, lever, word):
         ("displacement_z", 1, 1e9, "mm per MN"),
         ("displacement_y", 0, 1e9, "mm per MN"),
         ("rotation_x", 2, 1e9, "mrad per MN m"),
+        ("rotation_y", 1, 1e9, "mrad per MN"),
+        ("rotation_z", 0, 1e9, "mrad per MN"),
         ("moment_vertical", 1, 1.0, "m"),
         ("moment_lateral", 0, 1.0, "m"),
         ("shear_vertical", 1, 1.0, "-"),
@@ -709,6 +729,7 @@ def test_ways_of_loading_stand_under_their_names(run, case):
     for quantity, call in (
         ("moment_vertical", "section_forces"), ("acceleration_z", "acceleration"),
         ("displacement_z", "displacement"), ("rotation_x", "displacement"),
+        ("rotation_y", "rotations"),
     ):  # fmt: skip
         ax = plots.load_modes(runs, 12.0, quantity)
         assert ax.get_title(loc="left") == "x = 12 m"

@@ -13,15 +13,14 @@ import railbridge as rb
 from railbridge.cases import pages
 from railbridge.cases.sweeping import planned
 from railbridge.commands import command as cli
-from railbridge.units import UNITS
+from railbridge.units import UNITS, factor_of
 
 ROOT = Path(__file__).resolve().parents[2]
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 TARGETS = dict(re.findall(r"^([a-z-]+):[^#\n]*## .*\n((?:\t.*\n)*)", MAKEFILE, re.MULTILINE))
 DOCUMENTS = (
     "README.md", "CONTRIBUTING.md", "docs/map.md", "docs/case.md", "docs/hub.md", "docs/studies.md",
-    "docs/spectra.md",
-    "docs/codes.md", "docs/report.md",
+    "docs/spectra.md", "docs/codes.md", "docs/report.md", "docs/units.md",
 )  # fmt: skip
 
 
@@ -150,6 +149,24 @@ def test_every_unit_is_on_the_case_page():
     for dimension, family in UNITS.items():
         row = next(x for x in listed.splitlines() if x.startswith(f"| {dimension} |"))
         assert re.findall("`(.+?)`", row) == [unit for unit in family if unit]
+
+
+UNIT_PAGE = (ROOT / "docs" / "units.md").read_text(encoding="utf-8")
+
+
+def test_tables_of_the_page_on_units_are_those_of_the_code():
+    assert pages.with_tables(UNIT_PAGE) == UNIT_PAGE, "run `make pages`"
+    assert len(re.findall("<!-- table: ", UNIT_PAGE)) == 5
+
+
+def test_the_page_on_units_gives_every_unit_with_its_factor():
+    listed = UNIT_PAGE.partition("<!-- table: unit factors -->")[2].partition("<!-- end -->")[0]
+    for dimension, family in UNITS.items():
+        row = next(x for x in listed.splitlines() if x.startswith(f"| {dimension} |"))
+        found = re.findall(r"`([^`]+)` ([\d.e+-]+)", row)
+        assert [unit for unit, _ in found] == list(family)[1:]
+        for unit, factor in found:
+            assert float(factor) == pytest.approx(factor_of("unit", unit, dimension), rel=1e-8)
 
 
 STUDIES = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")

@@ -93,3 +93,13 @@ def test_nothing_is_said_where_the_formula_divides_by_nothing():
 def test_where_it_does_not_apply():
     two = rb.Beam("two", (20.0, 20.0), MU, EI).deck(modes=2, damping=0.01)
     assert residual_acceleration(two, rb.train("HSLM-A1"), np.array([50.0])) is None
+
+
+def test_a_heavy_mass_at_one_place_is_no_uniform_beam():
+    def found(mass):
+        beam = rb.Beam("beam", (L,), MU, EI, point_masses=(rb.PointMass(L / 2, mass),))
+        own = beam.deck(modes=2, damping=0.01)
+        return residual_acceleration(own, rb.train("ICE2"), np.array([50.0]))
+
+    assert found(0.2 * MU * L) is None
+    assert found(0.001 * MU * L) > 0.0

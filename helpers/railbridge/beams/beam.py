@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from .. import errors
-from ..decks import Deck, checked_damping, cut_group, damping_ratios
+from ..decks import Damping, Deck, checked_damping, cut_group, damping_ratios, viscosity
 from ..errors import InputError, Remark, brief
 from ..rails import Rail
 from .influence import BeamRecovery
@@ -36,7 +36,12 @@ class Beam(BeamProperties):  # noqa: D101
             share = (end - start) / self.length
             # Very short elements among long ones would cost the lowest modes their digits.
             least = 12 if self.elements is None and share > 0.01 else 2
-            edges.append(np.linspace(start, end, max(least, round(wanted * share)) + 1)[1:])
+            count = max(least, round(wanted * share))
+            masses = [m.x for m in self.point_masses if start < m.x < end]
+            parts = np.unique([start, *masses, end])
+            for a, b in zip(parts[:-1], parts[1:], strict=True):
+                own = max(1, round(count * (b - a) / (end - start)))
+                edges.append(np.linspace(a, b, own + 1)[1:])
         return Mesh(self, np.concatenate(edges))
 
     @cached_property
@@ -50,7 +55,7 @@ class Beam(BeamProperties):  # noqa: D101
     def deck(
         self,
         modes: int | None = None,
-        damping: tuple[float, float] | float = 0.0,
+        damping: Damping = 0.0,
         tracks: dict[str, float] | None = None,
         width: float | None = None,
         track_height: float = 0.0,
@@ -64,8 +69,8 @@ class Beam(BeamProperties):  # noqa: D101
         ----------
         modes : int, optional
             How many; chosen if not given, see `selection.needed`.
-        damping : tuple of float, or float
-            (alpha, beta) of Rayleigh, 1/s and s; or one ratio for every mode.
+        damping : float, tuple of float, or ModalDamping
+            One ratio for every mode; (alpha, beta) of Rayleigh, 1/s and s; or a ratio for each.
         tracks, width, track_height, rail
             See `Deck`.
 
@@ -94,7 +99,7 @@ class Beam(BeamProperties):  # noqa: D101
             track_height=track_height,
             rail=rail,
             mass_per_metre=self.mass,
-            internal_damping=0.0 if np.isscalar(damping) else float(damping[1]),
+            internal_damping=viscosity(damping),
             remarks=(*self.remarks, *self._left_out(modes, natural, recovery)),
         )
 

@@ -7,7 +7,8 @@ w) and rotation theta it moves by ``u + theta x r``,
 
 y and z measured from the deck axis, which runs through the shear centres, and u being that of the
 centroid, so that there z counts from the centroid. A freedom is held rigidly (its row is zero) or
-by a spring to the ground (its row times the stiffness is the force).
+by a spring to the ground (its row times the stiffness is the force). A pier below a bearing is a
+spring in series with what the bearing holds.
 """
 
 from __future__ import annotations
@@ -20,8 +21,9 @@ import numpy as np
 
 from .. import errors
 from ..errors import InputError, Range, check_fields
+from .piers import Pier
 
-__all__ = ["FIXITIES", "Bearing", "free_motions", "null_space", "on_deck"]
+__all__ = ["FIXITIES", "Bearing", "arm", "free_motions", "null_space", "on_deck"]
 
 FIXITIES = ("x", "y", "z", "roll", "pitch", "yaw")
 FARTHEST = 50.0
@@ -52,11 +54,14 @@ class Bearing:
         m above the deck axis; below it negative.
     stiffness : mapping
         What it holds by springs, { x = 6e9, z = 2e9 }: N/m for x y z, N m/rad for roll pitch yaw.
-        Elastomeric bearings, piers. Where they let an end of the deck move, wheels step onto it at
+        Elastomeric bearings. Where they let an end of the deck move, wheels step onto it at
         full weight unless the deck has a rail: accelerations are then not to be trusted.
     span : int, optional
         Where simple spans meet: the span it carries, from 1. Left out: one such bearing stands
         under each.
+    pier : Pier, optional
+        What the bearing stands on: springs in series with what it holds along x, y and z. Left
+        out: the ground below it does not give.
 
     Raises
     ------
@@ -70,9 +75,13 @@ class Bearing:
     z: Annotated[float, _FROM_AXIS] = 0.0
     stiffness: Mapping[str, float] = field(default_factory=dict, hash=False)
     span: Annotated[int, Range(least=1, whole=True)] | None = None
+    pier: Pier | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)
+        if self.pier is not None:
+            errors.instance("pier", self.pier, Pier)
+            _refuse_stiff(self.pier)
         springs = _checked_springs(self.stiffness)
         fixed = self.fixed
         if fixed is None:
@@ -90,21 +99,57 @@ class Bearing:
         """All it holds, rigidly or by springs, in the order x y z roll pitch yaw."""
         return tuple(n for n in FIXITIES if n in self.fixed or n in self.stiffness)
 
-    def row(self, freedom: str, centroid: float = 0.0) -> np.ndarray:
-        """Return the bearing's displacement or rotation from its node's freedoms, shape (6,).
+    @property
+    def springs(self) -> dict[str, float]:
+        """Stiffness of what gives, its pier with it, N/m and N m/rad by freedom."""
+        below = {} if self.pier is None else self.pier.stiffness
+        own = {name: below[name] for name in self.fixed if name in below}
+        for name, stiffness in self.stiffness.items():
+            softer = 1.0 / (1.0 + stiffness / below[name]) if name in below else 1.0
+            own[name] = stiffness * softer
+        return own
 
-        Freedoms of a node: u (of the centroid, `centroid` m above the axis), v, w, theta_x,
-        theta_z, -theta_y.
-        """
-        y, z = self.y, self.z
-        return {
-            "x": np.array([1.0, 0.0, 0.0, 0.0, -y, centroid - z]),
-            "y": np.array([0.0, 1.0, 0.0, -z, 0.0, 0.0]),
-            "z": np.array([0.0, 0.0, 1.0, y, 0.0, 0.0]),
-            "roll": np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
-            "pitch": np.array([0.0, 0.0, 0.0, 0.0, 0.0, -1.0]),
-            "yaw": np.array([0.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
-        }[freedom]
+    @property
+    def rigid(self) -> tuple[str, ...]:
+        """What it holds so that it does not give at all."""
+        return tuple(name for name in self.fixed if self.pier is None or name not in "xyz")
+
+    def row(self, freedom: str, centroid: float = 0.0) -> np.ndarray:
+        """Return the bearing's displacement or rotation from its node's freedoms; see `arm`."""
+        return arm(freedom, self.y, self.z, centroid)
+
+
+def arm(freedom: str, y: float, z: float, centroid: float = 0.0) -> np.ndarray:
+    """Return the motion of what is rigidly tied to a node, from the node's freedoms, shape (6,).
+
+    Freedoms of a node: u (of the centroid, `centroid` m above the axis), v, w, theta_x, theta_z,
+    -theta_y.
+
+    Parameters
+    ----------
+    freedom : str
+        One of `FIXITIES`.
+    y, z, centroid : float
+        m from the deck axis.
+    """
+    return {
+        "x": np.array([1.0, 0.0, 0.0, 0.0, -y, centroid - z]),
+        "y": np.array([0.0, 1.0, 0.0, -z, 0.0, 0.0]),
+        "z": np.array([0.0, 0.0, 1.0, y, 0.0, 0.0]),
+        "roll": np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
+        "pitch": np.array([0.0, 0.0, 0.0, 0.0, 0.0, -1.0]),
+        "yaw": np.array([0.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
+    }[freedom]
+
+
+def _refuse_stiff(pier: Pier) -> None:
+    given = {"x": "second_moment_along", "y": "second_moment_across", "z": "area"}
+    for name, stiffness in pier.stiffness.items():
+        if stiffness > STIFFEST:
+            allowed = f"makes a pier of {pier.height:g} m stiffer along {name} than "
+            remedy = "Check its unit; leave out the pier of a bearing that does not give"
+            value = getattr(pier, given[name])
+            raise InputError(f"pier.{given[name]}", value, f"{allowed}{STIFFEST:g} N/m", remedy)
 
 
 def _checked_freedoms(fixed: Any) -> tuple[str, ...]:
@@ -211,8 +256,8 @@ def free_motions(
         for freedom in bearing.restrained:
             row = bearing.row(freedom, centroid)
             # What the beam has no stiffness for does not move: a spring there holds nothing.
-            if freedom in bearing.stiffness and freedom in reference:
-                row *= min(1.0, bearing.stiffness[freedom] / reference[freedom])
+            if freedom in bearing.springs and freedom in reference:
+                row *= min(1.0, bearing.springs[freedom] / reference[freedom])
             # Everything as a length: a turn by the shift that it makes over the deck's length.
             row *= 1.0 if freedom in "xyz" else length
             rows.append([row @ section[m] / (length if m in _TURNS else 1.0) for m in motions])

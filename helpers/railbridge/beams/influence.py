@@ -2,13 +2,19 @@ r"""Static influence lines of a beam, and the modal values of its outputs.
 
 By Mueller-Breslau: the influence line of a section force is the deflected shape under a unit jump
 of the conjugate displacement, that of a bearing's force the shape under a unit displacement of the
-ground below it, its sign turned; that of a displacement is the shape under a unit load there. All
-are exact at any load position and for any section: inside an element the jump's own function g (a
-step, a kink, or the shape of a point load) is added to the elements' shape and its interpolation
-taken off, so no section needs a mesh of its own.
+ground below it, its sign turned; that of a displacement is the shape under a unit load there, that
+of a rotation the shape under a unit couple. All are exact at any load position and for any section:
+inside an element the jump's own function g (a step, a kink, or the shape of a point load or couple)
+is added to the elements' shape and its interpolation taken off, so no section needs a mesh of its
+own.
+
+A point mass stands on a node, where a jump differs from its interpolation by nothing: it counts in
+the nodal inertia alone, and a section at its place is on the face just before it.
 
 A distance t behind a point load ``g = t^3 / (6 E I) - t / kGA``: the kink of w by 1 / kGA is the
-jump of the shear strain, while psi stays smooth.
+jump of the shear strain, while psi stays smooth. Behind a couple that turns the section towards
+w' > 0 the moment E I psi' falls by one and the shear force stays, so with ``psi = -t / E I`` and no
+shear strain ``g = -t^2 / (2 E I)``: what is recovered is psi, the rotation of the section.
 """
 
 from __future__ import annotations
@@ -32,6 +38,7 @@ __all__ = ["BeamRecovery"]
 
 _FIELD_OF = {
     "displacement_y": "lateral", "displacement_z": "vertical", "rotation_x": "torsion",
+    "rotation_y": "vertical", "rotation_z": "lateral",
     "moment_vertical": "vertical", "moment_lateral": "lateral", "torsion": "torsion",
     "shear_vertical": "vertical", "shear_lateral": "lateral",
 }  # fmt: skip
@@ -43,6 +50,8 @@ _CONJUGATE = {
     "shear_vertical": (0, 1.0),
     "shear_lateral": (0, 1.0),
 }
+_TURNED = {"rotation_y": -1.0, "rotation_z": 1.0}
+"""Sign of psi, which is w' or v' of a deck rigid in shear, in a rotation of the section."""
 _FREEDOM_OF = dict(zip(BEARING_QUANTITIES, ("x", "y", "z", "roll", "pitch", "yaw"), strict=True))
 _LINE_MOTION = {
     # reaction: field, place of the conjugate motion among a node's freedoms
@@ -103,7 +112,7 @@ class BeamRecovery:
         self._lines: dict[tuple, Line | None] = {}
 
     def section(self, quantity: str, x: float) -> Line | None:
-        """Return the line of a displacement or section force at x (m).
+        """Return the line of a displacement, rotation or section force at x (m).
 
         At an inner bearing it is that on the face just before it. None where the beam has no
         stiffness for it.
@@ -175,6 +184,9 @@ class BeamRecovery:
             order, sign = _CONJUGATE[quantity]
             behind[order] = sign * h**order
             rotation[0] = sign * order
+        elif quantity in _TURNED:
+            rotation[1] = -_TURNED[quantity] * h / beam.stiffness_of(name)
+            behind[2] = rotation[1] * h / 2
         elif name in BENDING:
             stiffness = beam.stiffness_of(name)
             behind[3] = h**3 / (6 * stiffness)
@@ -185,11 +197,15 @@ class BeamRecovery:
         return behind, rotation
 
     def _section_load(self, quantity: str, jump: _Jump) -> np.ndarray:
-        """Return the nodal load of a unit jump, or of a unit load at the section."""
+        """Return the nodal load of a unit jump, or of a unit load or couple at the section."""
         mesh, name, e = self.mesh, jump.field, jump.element
         load, freedoms = np.zeros(mesh.size), mesh.freedoms[name][e]
         if quantity in _CONJUGATE:
             load[freedoms] = mesh.element_matrices[name][0][e] @ jump.nodal
+        elif quantity in _TURNED:
+            turn = rotation_powers(mesh.h[e : e + 1], mesh.phi[name][e : e + 1])[0]
+            psi = jump.place ** np.arange(4) @ turn @ mesh.shapes[name][e]
+            load[freedoms] = _TURNED[quantity] * psi
         elif name in BENDING:
             load[freedoms] = jump.place ** np.arange(4) @ mesh.shapes[name][e]
         else:
@@ -271,8 +287,8 @@ class BeamRecovery:
             return None
         node, load = mesh.bearing_nodes[index], np.zeros(mesh.size)
         freedoms = slice(6 * node, 6 * node + 6)
-        if freedom in bearing.stiffness:
-            load[freedoms] = bearing.stiffness[freedom] * row
+        if freedom in bearing.springs:
+            load[freedoms] = bearing.springs[freedom] * row
             moved = -mesh.solve(load)
         else:
             rigid, rows = mesh.rigid_rows(node)

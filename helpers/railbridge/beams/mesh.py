@@ -182,7 +182,24 @@ class Mesh:
             freedoms = self.freedoms[name]
             stiffness.append((freedoms, freedoms, k))
             mass.append((freedoms, freedoms, m))
-        return self._assembled(stiffness), self._assembled(mass + self._eccentric_mass)
+        mass += self._eccentric_mass + self._point_masses
+        return self._assembled(stiffness), self._assembled(mass)
+
+    @cached_property
+    def _point_rows(self) -> list[tuple[int, list[tuple[float, np.ndarray]]]]:
+        """Of each point mass its node, and inertias with the rows of their motions, shape (6,)."""
+        z = self.beam.centroid_height
+        return [(self.node(own.x), own.parts(z)) for own in self.beam.point_masses]
+
+    @property
+    def _point_masses(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Mass of what stands at single places: rows, columns and values of each part."""
+        result = []
+        for node, parts in self._point_rows:
+            freedoms = 6 * node + np.arange(6)[None]
+            values = sum(m * np.outer(row, row) for m, row in parts)
+            result.append((freedoms, freedoms, values[None]))
+        return result
 
     def _assembled(self, parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> csr_array:
         """Add up parts, each with rows (e, n1), columns (e, n2) and values (e, n1, n2)."""
@@ -230,7 +247,7 @@ class Mesh:
             (i, freedom)
             for i, own in enumerate(self.bearing_nodes)
             if own == node
-            for freedom in self.beam.bearings[i].fixed
+            for freedom in self.beam.bearings[i].rigid
         ]
         return rigid, np.array([self.bearing_row(*each) for each in rigid]).reshape(-1, 6)
 
@@ -262,7 +279,7 @@ class Mesh:
         springs = [
             (i, freedom, stiffness)
             for i, bearing in enumerate(self.beam.bearings)
-            for freedom, stiffness in bearing.stiffness.items()
+            for freedom, stiffness in bearing.springs.items()
         ]
         if not springs:
             return self.matrices[0]
@@ -363,6 +380,17 @@ class Mesh:
         # The mass moves sideways by v - z_c theta; its own turning alone is torsion.
         for rows, columns, values in self._eccentric_mass:
             result["lateral"] += np.sum(vectors[rows] * (values @ vectors[columns]), axis=(0, 1))
+        for node, parts in self._point_rows:
+            own = vectors[6 * node : 6 * node + 6]
+            (along, along_row), (across, across_row), (up, up_row), (roll, roll_row) = parts
+            result["lateral"] += across * (across_row @ own) ** 2
+            result["vertical"] += up * (up_row @ own) ** 2
+            result["torsion"] += roll * (roll_row @ own) ** 2
+            if "axial" in self.beam.fields:
+                result["axial"] += along * (along_row @ own) ** 2
+            else:  # it moves lengthwise only because sections turn
+                result["lateral"] += along * (along_row[4] * own[4]) ** 2
+                result["vertical"] += along * (along_row[5] * own[5]) ** 2
         whole = sum(result.values())
         return {name: part / whole for name, part in result.items()}
 

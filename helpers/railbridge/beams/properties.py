@@ -16,6 +16,7 @@ from ..errors import InputError, InputWarning, Range, brief, check_fields, withi
 from ..units import G
 from .bearings import FARTHEST, Bearing, free_motions, on_deck
 from .elements import FIELDS
+from .pointmasses import PointMass
 
 __all__ = ["BeamProperties", "Section", "checked_spans", "span_ends"]
 
@@ -24,6 +25,9 @@ _SHORTEST = 1e-3
 
 The deck's lowest frequency then keeps five digits.
 """
+
+MOST_MASSES = 200
+"""Most point masses: each is a node of the mesh."""
 
 _Rigidity = Annotated[float, Range(above=0.0, unit="N m2")]  # E I, G J
 _Force = Annotated[float, Range(above=0.0, unit="N")]  # E A, kGA
@@ -180,13 +184,16 @@ class BeamProperties:
     centroid_height : float
         Centroid above the deck axis, which runs through the shear centres, m. Axial force and mass
         are there: the mass couples lateral bending and torsion.
+    point_masses : tuple of PointMass
+        Masses at single places, besides `mass`.
 
     Raises
     ------
     InputError
         Spans, mass or stiffness not positive, a bearing off the deck, twice in one place or too
-        close to another, one whose place makes the deck move in a way it has no stiffness for, or a
-        beam that can move as a rigid body.
+        close to another, a point mass off the deck or where simple spans meet, a bearing whose
+        place makes the deck move in a way it has no stiffness for, or a beam that can move as a
+        rigid body.
     """
 
     __repr__ = brief
@@ -207,6 +214,7 @@ class BeamProperties:
     rotary_inertia_vertical: _InertiaPerMetre | None = None
     rotary_inertia_lateral: _InertiaPerMetre | None = None
     centroid_height: Annotated[float, Range(least=-FARTHEST, most=FARTHEST, unit="m")] = 0.0
+    point_masses: tuple[PointMass, ...] = ()
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -220,6 +228,7 @@ class BeamProperties:
                 remedy = f"{key} goes with it"
                 raise InputError("bending_stiffness_lateral", None, "is missing", remedy)
         object.__setattr__(self, "bearings", self._placed_bearings())
+        object.__setattr__(self, "point_masses", self._placed_masses())
         self._refuse_close_nodes()
         self._refuse_mechanism()
 
@@ -314,6 +323,14 @@ class BeamProperties:
                 field = f"bearings[{i}].stiffness.{direction}"
                 found += soft_bearing(field, direction, spring, weight)
             found += doubt("height", f"bearings[{i}].z", bearing.z)
+            if bearing.pier is not None:
+                found += [r.moved(f"bearings[{i}].pier") for r in bearing.pier.remarks]
+        for i, own in enumerate(self.point_masses, start=1):
+            if not BOUNDS["point_mass"].holds(own.mass / (self.mass * self.length)):
+                text = f"= {own.mass:g} kg is more than the deck's own "
+                text += f"{self.mass * self.length:.3g} kg: given in g?"
+                found.append(InputWarning(f"point_masses[{i}].mass", text))
+            found += doubt("height", f"point_masses[{i}].z", own.z)
         return tuple(found)
 
     def _odd_radius(self, name: str, bound: str, square: float, unit: str) -> list[InputWarning]:
@@ -350,6 +367,27 @@ class BeamProperties:
                     placed[place] = own
         return tuple(placed.values())
 
+    def _placed_masses(self) -> tuple[PointMass, ...]:
+        """Return the point masses, what misses a bearing or end of a span by rounding put there."""
+        own = errors.instances("point_masses", self.point_masses, PointMass)
+        if len(own) > MOST_MASSES:
+            allowed = f"must be at most {MOST_MASSES} masses"
+            raise InputError("point_masses", len(own), allowed, "Spread them over the deck's mass")
+        fixed, placed = self.required_nodes, []
+        for i, mass in enumerate(own, start=1):
+            with within(f"point_masses[{i}]"):
+                x = on_deck(mass.x, fixed)
+                if x in self.joints:
+                    remedy = "Put it on one of the two spans, beside the joint"
+                    raise InputError("x", x, "is where two simple spans meet", remedy)
+                nearest = min([*fixed, *(m.x for m in placed)], key=lambda known: abs(known - x))
+                if 0.0 < abs(nearest - x) < _SHORTEST * self.length:
+                    allowed = f"is {abs(nearest - x):.3g} m beside another mass, bearing or end of "
+                    allowed += f"a span, must be at least {_SHORTEST:g} of the whole length"
+                    raise InputError("x", x, allowed, f"Put it at x = {nearest:g} m")
+                placed.append(replace(mass, x=x))
+        return tuple(placed)
+
     def _usual_bearings(self) -> tuple[Bearing, ...]:
         usual, ends = ("y", "z", "roll"), self._span_ends.tolist()
         if self.continuous:
@@ -369,6 +407,10 @@ class BeamProperties:
             return [bearing]
         starts, ends = self._span_ends[:-1], self._span_ends[1:]
         reached = np.flatnonzero((starts <= bearing.x) & (bearing.x <= ends)) + 1
+        if bearing.span is None and bearing.pier is not None and len(reached) > 1:
+            allowed = "is missing: two simple spans meet on this pier, whose motion would be one"
+            remedy = "Give each span its own bearing and its share of the pier"
+            raise InputError("span", None, allowed, remedy)
         if bearing.span is None:
             return [replace(bearing, span=span) for span in reached.tolist()]
         if bearing.span not in reached:

@@ -11,13 +11,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..decks import SECTION_QUANTITIES, Recovery, whole_group
+from ..cutoffs import EN1990_LEAST
+from ..decks import Recovery, load_of, whole_group
 from ..errors import Remark, ResultWarning
+from ..guideways import COMPONENTS
 from .mesh import BeamModes
 
 __all__ = ["left_out", "needed"]
 
-REACH = 30.0
+REACH = EN1990_LEAST
 """Hz; all modes below it are kept, as EN 1990 A2.4.4.2.1 asks for deck accelerations."""
 AT_LEAST = 20
 CEILING = 150.0
@@ -96,7 +98,7 @@ def left_out(recovery: Recovery, frequencies_hz: np.ndarray, middles: np.ndarray
         lines = [recovery.section(quantity, x) for x in middles]
         if lines[0] is None:
             continue
-        component = tuple(SECTION_QUANTITIES).index(quantity)
+        component = COMPONENTS.index(load_of(quantity))
         whole = np.array(
             [line.influence(middles[i : i + 1])[0, 0, component] for i, line in enumerate(lines)]
         )

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from ..beams import Beam, Bearing
-from ..decks import Deck, checked_damping, damping_ratios
+from ..decks import Damping, Deck, checked_damping, damping_ratios
 from ..errors import InputError, ResultWarning, brief
 from .boxshell import BoxMesh, shell_of
 from .dimensions import BoxDimensions
@@ -127,19 +127,20 @@ class Box(BoxDimensions):  # noqa: D101
                 result += [Bearing(p.x, fixed, side * foot, z, dict(springs)) for side in p.sides]
         return tuple(result)
 
-    def beam_deck(
-        self, modes: int | None = None, damping: tuple[float, float] | float = 0.0, **switches: bool
-    ) -> Deck:
+    def beam_deck(self, modes: int | None = None, damping: Damping = 0.0, **options: Any) -> Deck:
         """Return the modal deck of the beam, its rails on top of the slab.
 
-        See `beam` for the switches.
+        See `beam` for the options, `Beam.deck` for the damping.
         """
         height = self.depth - self.section.shear_centre[1]
-        made = self.beam(**switches).deck(
-            modes, damping, dict(self.tracks), self.slab_width, height
-        )
-        left_out = [remark for remark in made.remarks if isinstance(remark, ResultWarning)]
-        return replace(made, remarks=(*self.remarks, *left_out))
+        made = self.beam(**options).deck(modes, damping, dict(self.tracks), self.slab_width, height)
+        # What follows from dimensions is doubted there.
+        kept = [
+            remark
+            for remark in made.remarks
+            if isinstance(remark, ResultWarning) or remark.field.startswith("point_masses")
+        ]
+        return replace(made, remarks=(*self.remarks, *kept))
 
     # ---- shell
 
@@ -150,7 +151,7 @@ class Box(BoxDimensions):  # noqa: D101
     def shell_deck(
         self,
         modes: int | None = None,
-        damping: tuple[float, float] | float = 0.0,
+        damping: Damping = 0.0,
         mesh: BoxMesh | None = None,
     ) -> Deck:
         """Return the modal deck of the shell.

@@ -6,12 +6,13 @@ from .definition import Case, case
 from .objects import box, car_parameters, deck, deck_from_table, varied_car, vehicle
 from .opening import open_study
 from .shelf import data_root
+from .simplebridge import SimpleBridge
 from .summary import summarize
 from .sweeping import speed_envelope, sweep
 from .trackfiles import track_record
 
 __all__ = [
-    "Case", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table", "open_study",
-    "planar_car", "read_train", "speed_envelope", "sprung_mass", "summarize", "sweep",
+    "Case", "SimpleBridge", "box", "car_parameters", "case", "data_root", "deck", "deck_from_table",
+    "open_study", "planar_car", "read_train", "speed_envelope", "sprung_mass", "summarize", "sweep",
     "track_record", "train", "train_list", "two_bogie_car", "varied_car", "vehicle",
 ]  # fmt: skip

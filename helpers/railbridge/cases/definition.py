@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from .. import errors, exchange
-from ..checks import Requirements
+from ..checks import Assessment, Requirements, assess, usual_speeds
 from ..crossing import NotConvergedError, compute, warn_of
 from ..decks import Deck
 from ..errors import InputError, Remark, within
@@ -27,7 +27,7 @@ from ..notices import remarks
 from ..plausibility import doubts
 from ..results import Crossing
 from ..settings import Options, Settings, bytes_needed, check, refuse_bytes
-from ..studies import RandomResponse, random_response
+from ..studies import Between, RandomResponse, random_response
 from ..tracks import Track
 from ..trains import AnyTrain
 from . import objects, shelf, tables
@@ -185,6 +185,45 @@ class Case:
                 points=self.points if points is None else points, wheels_of=wheels_of,
                 base=certain_part(self.track), progress=progress, **self.options,
             )  # fmt: skip
+
+    def assess(
+        self, trains: Any = None, speeds: Sequence[float] | Between | int | None = None, **how: Any
+    ) -> Assessment:
+        """Judge the deck of this case by the table ``checks``, over speeds; see `checks.assess`.
+
+        Parameters
+        ----------
+        trains : mapping of trains by name, one train, or several; optional
+            That of the case if not given.
+        speeds : sequence of float, Between, or int; optional
+            m/s; or how many of `checks.usual_speeds`, which are taken if nothing is given.
+        **how
+            ``stations``, ``workers``, ``store`` and ``progress`` of `checks.assess`.
+
+        Raises
+        ------
+        InputError
+            A case without the table ``checks``.
+        """
+        needs = self.requirements
+        if needs is None:
+            remedy = "Give it, with line_speed at least: see docs/case.md"
+            raise InputError("checks", None, "is missing, and says what is asked of", remedy)
+        trains = {self._train_in_words: self.train} if trains is None else trains
+        if speeds is None or isinstance(speeds, int):
+            speeds = usual_speeds(needs, speeds)
+        options = {key: value for key, value in self.options.items() if key != "speed"}
+        with within(names=IN_A_CASE):
+            return assess(self.deck, trains, speeds, needs, track=self.track, **how, **options)
+
+    @property
+    def _train_in_words(self) -> str:
+        """What a table calls this train: its name or file, or what its cars are."""
+        given = self.content["train"]
+        if "vehicle" in given:
+            return f"{given.get('cars', 1)} x {Path(given['vehicle']).stem}"
+        named = given.get("name") or Path(given.get("file", "")).stem
+        return named or "the train"
 
     @property
     def doubts(self) -> list[Remark]:

@@ -14,13 +14,13 @@ from pathlib import Path
 from typing import Any
 
 from .. import errors, exchange
-from ..beams import Beam, Bearing, Section
+from ..beams import Beam, Bearing, Pier, PointMass, Section
 from ..boxes import Box, BoxMesh, Pads
-from ..decks import Deck, rayleigh
+from ..decks import Damping, Deck, rayleigh
 from ..errors import InputError, Remark, ResultWarning, did_you_mean, plain, within
 from ..exchange import ModesTable
 from ..irregularities import Cosines, RecordedRail, TrackRecord
-from ..plausibility import damping_frequencies
+from ..plausibility import damping_constants, damping_frequencies
 from ..rails import Rail
 from ..shapes import Dip, Joint, Weld
 from ..tracks import Harmonic, Irregularity, Level, Notch, Rails, Track
@@ -323,6 +323,10 @@ _GIVEN_BY = {
 """What of a deck's table its frequencies follow from, and what its mass."""
 
 
+_DAMPING_KEYS = ("modal", "per_mode", "ratio", "alpha", "beta")
+"""What damping ratios follow from, the first that is given."""
+
+
 def words_of_deck(content: Mapping[str, Any]) -> dict[str, str]:
     """Return what a case's ``[deck]``, or the file it names, calls the properties of a `Deck`."""
     with within("deck.file", {"deck": ""}):
@@ -337,7 +341,7 @@ def words_of_deck(content: Mapping[str, Any]) -> dict[str, str]:
         words["deck.torsional_stiffness"] = "deck.section.torsion_constant"
         words["deck.bending_stiffness_lateral"] = "deck.section.second_moment_lateral"
     damping = own.get("damping", {})
-    ratio = "damping.modal" if "modal" in damping else "damping.ratio" if damping else "modes"
+    ratio = next((f"damping.{k}" for k in _DAMPING_KEYS if k in damping), "modes")
     return words | {"deck.damping_ratios": f"deck.{ratio}"}
 
 
@@ -351,10 +355,11 @@ def deck_of_case(content: Mapping[str, Any]) -> Deck:
     """Return the deck of a case's ``[deck]``, made once for every content."""
     t = checked(tables.DECK, content, "deck")
     if not isinstance(t, tables.SHIPPED):
+        name = content.get("name")
+        name = name if isinstance(name, str) and name.strip() else "deck"
         with within("deck"):
-            return _cached_deck(
-                "deck", json.dumps(content, sort_keys=True), *exchange.stamps(content)
-            )
+            key = json.dumps(content, sort_keys=True)
+            return _cached_deck(name, key, *exchange.stamps(content))
     with within("deck.file", {"deck": ""}):
         path, own = _own(t.file)
     if t.has("rail"):
@@ -397,6 +402,10 @@ def _without_rail(name: str, t: Table) -> Deck:
     return _beam_deck(name, t)
 
 
+_LISTS = {"bearings": "bearing", "point_masses": "point_mass"}
+"""What a deck file calls the lists of a beam."""
+
+
 def _beam_deck(name: str, t: Table) -> Deck:
     properties = {key: getattr(t, key) for key in ("mass", *tables.STIFFNESSES) if t.has(key)}
     doubted: list[Remark] = []
@@ -408,13 +417,18 @@ def _beam_deck(name: str, t: Table) -> Deck:
     bearings = []
     for i, bearing in enumerate(t.bearing or [], start=1):
         with within(f"bearing[{i}]"):
-            bearings.append(Bearing(**{"fixed": ()} | bearing.given))
+            given = {"fixed": ()} | bearing.given
+            if bearing.has("pier"):
+                with within("pier"):
+                    given["pier"] = Pier(**bearing.pier.given)
+            bearings.append(Bearing(**given))
             _refuse_beside(bearings[-1].y, t.width)
-    with within(names={"bearings": "bearing"}):
+    with within(names=_LISTS):
         beam = Beam(
             name,
             t.all_spans,
             bearings=tuple(bearings),
+            point_masses=_made(PointMass, "point_mass", t.point_mass or []),
             elements=t.elements,
             continuous=t.continuous,
             centroid_height=t.centroid_height,
@@ -424,7 +438,7 @@ def _beam_deck(name: str, t: Table) -> Deck:
     # What follows from the section is doubted there.
     derived = ("mass", *tables.STIFFNESSES) if t.has("section") else ()
     own = [remark for remark in beam.remarks if remark.field not in derived]
-    doubted += [remark.moved(names={"bearings": "bearing"}) for remark in own]
+    doubted += [remark.moved(names=_LISTS) for remark in own]
     left_out = [remark for remark in made.remarks if isinstance(remark, ResultWarning)]
     return _doubted(replace(made, remarks=tuple(left_out)), t, doubted)
 
@@ -432,10 +446,13 @@ def _beam_deck(name: str, t: Table) -> Deck:
 def _doubted(deck: Deck, t: Table, found: Iterable[Remark] = ()) -> Deck:
     """Return a deck with what its table makes doubtful, in the table's words."""
     deck = replace(deck, remarks=(*deck.remarks, *found))
-    if t.damping is None or not t.damping.has("frequencies_hz"):
+    if isinstance(t.damping, tables.RAYLEIGH):
+        given = t.damping.frequencies_hz
+        doubted = damping_frequencies("damping.frequencies_hz", given, deck)
+    elif isinstance(t.damping, tables.CONSTANTS):
+        doubted = damping_constants("damping", t.damping.alpha, t.damping.beta, deck)
+    else:
         return deck
-    given = t.damping.frequencies_hz
-    doubted = damping_frequencies("damping.frequencies_hz", given, deck)
     return replace(deck, remarks=(*deck.remarks, *doubted))
 
 
@@ -454,14 +471,19 @@ def _tracks(t: Table) -> dict[str, float]:
     return t.tracks or {}
 
 
-def _damping(t: Table) -> tuple[float, float] | float:
-    if t.damping.has("modal"):
-        return t.damping.modal
+def _damping(t: Table) -> Damping:
+    given = t.damping
+    if isinstance(given, tables.MODAL):
+        return given.modal
+    if isinstance(given, tables.PER_MODE):
+        return given.per_mode
+    if isinstance(given, tables.CONSTANTS):
+        return given.alpha, given.beta
     with within("damping"):
-        return rayleigh(t.damping.ratio, t.damping.frequencies_hz)
+        return rayleigh(given.ratio, given.frequencies_hz)
 
 
-_IN_A_BOX_DECK = {"bearings": "bearing", "pads": "bearing"} | {
+_IN_A_BOX_DECK = {**_LISTS, "pads": "bearing"} | {
     dimension: f"box.{dimension}" for dimension in tables.DIMENSIONS
 }
 """What a deck file calls the fields of a box, and what its shell stands on."""
@@ -484,8 +506,9 @@ def _box_deck(name: str, t: Table) -> Deck:
         made = girder.shell_deck(t.modes, _damping(t), mesh)
     else:
         switches = {key: getattr(t, key) for key in ("shear", "rotary_inertia") if t.has(key)}
-        made = girder.beam_deck(t.modes, _damping(t), **switches)
-    places = {"bearings": "bearing", **{name: f"box.{name}" for name in tables.DIMENSIONS}}
+        masses = _made(PointMass, "point_mass", t.point_mass or [])
+        made = girder.beam_deck(t.modes, _damping(t), point_masses=masses, **switches)
+    places = {**_LISTS, **{name: f"box.{name}" for name in tables.DIMENSIONS}}
     moved = [remark.moved(names=places) for remark in made.remarks]
     return _doubted(replace(made, remarks=()), t, moved)
 

@@ -11,7 +11,7 @@ from pydantic_core import PydanticUndefined
 
 from .. import bounds, irregularities
 from ..units import UNITS
-from . import tables
+from . import tables, unitpages
 from .tabletypes import Table
 
 __all__ = [
@@ -90,9 +90,10 @@ def with_tables(page: str) -> str:
     """Return a page with its marked tables written anew.
 
     A table stands between ``<!-- table: NAME -->`` and ``<!-- end -->``; NAME is one of `TABLES`,
-    ``units``, ``spectra``, or ``doubts`` for what is doubted.
+    ``units``, ``spectra``, ``doubts`` for what is doubted, or one of `unitpages.TABLES`.
     """
     special = {"units": unit_rows, "doubts": bounds.table, "spectra": spectrum_rows}
+    special |= unitpages.TABLES
 
     def written(found: re.Match) -> str:
         name = found[2]

@@ -25,7 +25,9 @@ try:
 except ImportError:  # Windows: nobody is told, but everybody has a temporary folder of their own
     fcntl = None
 
-__all__ = ["Staged", "Stopped", "files", "folder", "growing", "stopping", "undisturbed"]
+__all__ = [
+    "Staged", "Stopped", "files", "folder", "growing", "new_file", "stopping", "undisturbed",
+]  # fmt: skip
 
 _PREFIX = ".railbridge-"
 _REPLACED = "replaced"
@@ -146,6 +148,28 @@ def files(out: str, field: str, names: Sequence[str]) -> Iterator[Path]:
                 # Somebody else made it while this one was computing.
                 with _held(staged.folder, field, out):
                     _exchange(staged, names)
+
+
+def new_file(path: Path, text: str) -> None:
+    """Write a file that must not exist yet; whole, or it does not exist afterwards either.
+
+    Parameters
+    ----------
+    path : Path
+    text : str
+
+    Raises
+    ------
+    OSError
+        It cannot be written; `FileExistsError` where it is there.
+    """
+    with path.open("x", encoding="utf-8") as file:
+        try:
+            file.write(text)
+            file.flush()
+        except BaseException:
+            path.unlink()
+            raise
 
 
 def _exchange(staged: Staged, names: Sequence[str]) -> None:

@@ -29,7 +29,7 @@ __all__ = ["QUANTITIES", "HistoryTable", "histories", "summarize", "to_json"]
 QUANTITIES = {
     "displacement_z": "m", "displacement_y": "m", "rotation_x": "rad", "acceleration_z": "m/s2",
     "acceleration_y": "m/s2", "moment_vertical": "N m", "moment_lateral": "N m", "torsion": "N m",
-    "shear_vertical": "N",
+    "shear_vertical": "N", "rotation_y": "rad", "rotation_z": "rad",
 }  # fmt: skip
 """What is told of every point, with units."""
 
@@ -65,8 +65,9 @@ def summarize(
     place, move over (V -> 0); ``dynamic_factor`` is the dynamic extreme on the same side divided by
     it. With ``loads`` other than ``wheels`` the factor therefore also holds what condensing costs.
 
-    Accelerations are those up to a cut-off, the last of ``deck_frequencies_hz``. With more modes
-    they settle under Rayleigh damping, slowly under one ratio for all, not at all without damping.
+    Accelerations are made of the first modes of the deck, as many as ``acceleration_modes`` in
+    ``run`` says are ``kept``. With more modes they settle under Rayleigh damping, slowly under one
+    ratio for all, not at all without damping.
     """
     s, deck = errors.instance("run", run, Crossing).settings, run.deck
     remarks = notices.remarks(run) if remarks is None else remarks
@@ -88,6 +89,10 @@ def summarize(
             "duration": run.time[-1],
             "lead_in": s.lead_in, "track_offset": s.track_offset, "loads": s.loads,
             "interaction": s.interaction, "contact": s.contact, "rail": _rail(deck),
+            "acceleration_modes": {
+                "up_to_hz": s.accelerations_up_to_hz,
+                "kept": int(run.acceleration_modes.sum()), "of": len(deck.frequencies_hz),
+            },
         },
         **_wheels(run),
         "points": [{"x": x, **_at_point(run, x)} for x in points],
@@ -243,7 +248,7 @@ def _histories_at(run: Crossing, x: float) -> dict[str, History]:
     """Return what tells of each of the `QUANTITIES` at x; NaN where the deck has none of it."""
     nothing = np.full(len(run.time), np.nan)
     found = {name: History(run.time, {name: nothing}, QUANTITIES) for name in QUANTITIES}
-    told = [run.displacement(x), run.acceleration(x)]
+    told = [run.displacement(x), run.rotations(x), run.acceleration(x)]
     if not run.deck.recovery.lacks:
         told.append(run.section_forces(x))
     for history in told:

@@ -13,7 +13,7 @@ from pydantic import BeforeValidator, Discriminator, Tag
 from typing_extensions import TypeAliasType
 
 from .. import errors
-from ..beams import Beam, Bearing, Section
+from ..beams import Beam, Bearing, Pier, PointMass, Section
 from ..beams.bearings import FIXITIES
 from ..beams.bearings import STIFFEST as STIFFEST_BEARING
 from ..boxes import Box, BoxMesh, Pads
@@ -22,8 +22,8 @@ from ..boxes.pads import STIFFEST as STIFFEST_PAD
 from ..checks import Requirements
 from ..codes.hslm import FORCES, SPACING
 from ..codes.wagons import WAGONS
-from ..decks import RATIO
-from ..errors import InputError, Range, choice, keys
+from ..decks import ALPHA, BETA, RATIO, ModalDamping
+from ..errors import InputError, Range, choice, keys, within
 from ..exchange import ModesTable
 from ..guideways import Guideway
 from ..irregularities import RandomTrack
@@ -47,6 +47,7 @@ from .tabletypes import (
     key,
     list_of,
     meanings,
+    measured,
     named_numbers,
     number,
     numbers,
@@ -406,9 +407,42 @@ RAYLEIGH = table(
     ratio=key(number(**vars(RATIO)), "Share of critical at both frequencies.", required=True),
     frequencies_hz=key(numbers(2, above=0.0, unit="Hz"), "The two frequencies, Hz.", required=True),
 )  # fmt: skip
+
+
+def _per_mode(value: Any) -> ModalDamping:
+    with within(names={"ratios": ""}):
+        return ModalDamping(value)
+
+
+_RATIO = {"type": "number", "minimum": RATIO.least, "maximum": RATIO.most}
+PER_MODE = table(
+    "PerMode",
+    "A ratio for each mode.",
+    base=_Damping,
+    per_mode=key(
+        measured(anything({"type": "array", "minItems": 1, "items": _RATIO}, _per_mode)),
+        meanings(ModalDamping)["ratios"],
+        required=True,
+    ),
+)
+CONSTANTS = table(
+    "Constants",
+    "Rayleigh's constants: ratio = alpha / (2 omega) + beta omega / 2.",
+    base=_Damping,
+    schema={"minProperties": 1},
+    alpha=key(number(**vars(ALPHA)), "Share of the mass, 1/s.", 0.0),
+    beta=key(number(**vars(BETA)), "Share of the stiffness, s.", 0.0),
+)
+
+
+def _kind_of_damping(value: Any) -> str:
+    found = by_key(value, ("modal", "per_mode", "alpha", "beta"), otherwise="rayleigh")
+    return "constants" if found in ("alpha", "beta") else found
+
+
 DAMPING = switched(
-    lambda value: by_key(value, ("modal",), otherwise="rayleigh"),
-    {"modal": MODAL, "rayleigh": RAYLEIGH},
+    _kind_of_damping,
+    {"modal": MODAL, "per_mode": PER_MODE, "constants": CONSTANTS, "rayleigh": RAYLEIGH},
 )
 
 
@@ -423,6 +457,7 @@ class _Holds(Table):
 
 
 _HOLDS = {"anyOf": [{"required": ["fixed"]}, {"required": ["stiffness"]}]}
+PIER = table("Pier", "A pier below a bearing, as springs.", **fields_of(Pier))
 BEARING = table(
     "Bearing",
     "A bearing under the deck.",
@@ -431,7 +466,8 @@ BEARING = table(
     **fields_of(
         Bearing,
         fixed=_words(FIXITIES),
-        stiffness=named_numbers(FIXITIES, above=0.0, most=STIFFEST_BEARING),
+        stiffness=named_numbers(FIXITIES, above=0.0, most=STIFFEST_BEARING, unit="N/m or N m/rad"),
+        pier=PIER,
     )
     | {
         "fixed": key(
@@ -448,9 +484,10 @@ PADS = table(
     **fields_of(
         Pads,
         fixed=_words(DIRECTIONS),
-        stiffness=named_numbers(DIRECTIONS, above=0.0, most=STIFFEST_PAD),
+        stiffness=named_numbers(DIRECTIONS, above=0.0, most=STIFFEST_PAD, unit="N/m"),
     ),
 )
+POINT_MASS = table("PointMass", "A mass at one place of the deck.", **fields_of(PointMass))
 SECTION = table("Section", "Section and material.", **fields_of(Section))
 
 RAIL = table(
@@ -465,7 +502,9 @@ _RAIL = key(
     "{ bending_stiffness, foundation }; not at all if left out.",
 )
 _CARRYING = {
-    "tracks": key(named_numbers(), "Named tracks: m left of the deck axis, { left = 2.4 }."),
+    "tracks": key(
+        named_numbers(unit="m"), "Named tracks: m left of the deck axis, { left = 2.4 }."
+    ),
     "width": key(number(above=0.0, unit="m"), "m, on which the wheels must stand."),
     "track_height": key(
         number(least=-50.0, most=50.0, unit="m"), meanings(Guideway)["track_height"], 0.0
@@ -480,7 +519,11 @@ _MODES = key(
     number(least=1, whole=True),
     "How many modes are kept, the lowest that loads can excite; chosen if left out.",
 )
-_DAMPING = "Rayleigh { ratio, frequencies_hz }, or { modal }, the same ratio for every mode."
+_DAMPING = (
+    "Rayleigh { ratio, frequencies_hz } or { alpha, beta }, one ratio for every mode { modal }, or "
+    "one for each { per_mode }."
+)
+_POINT_MASSES = "Masses at single places, besides the mass per metre: [[deck.point_mass]]."
 _BEARINGS = "Bearings; default: y, z and roll at both ends of every span, x at the first."
 
 
@@ -549,6 +592,7 @@ BEAM = table(
     modes=_MODES,
     **fields_of(Beam, only=("elements", "centroid_height")),
     bearing=key(list_of(BEARING, "bearing"), _BEARINGS),
+    point_mass=key(list_of(POINT_MASS, "point_mass"), _POINT_MASSES),
     **_CARRYING,
     **_for_people(),
 )
@@ -576,6 +620,10 @@ class _BoxDeck(_Spans):
         if "mesh" in given and not shell:
             remedy = 'Remove it, or set model = "shell"'
             raise InputError("mesh", given["mesh"], "belongs to the shell model", remedy)
+        if "point_mass" in given and shell:
+            allowed = "belongs to the beam model: the shell has no node that could carry it"
+            remedy = 'Set model = "beam", or spread it as track_mass or edge_mass'
+            raise InputError("point_mass", None, allowed, remedy)
 
 
 BOX_DECK = table(
@@ -596,6 +644,7 @@ BOX_DECK = table(
     damping=key(DAMPING, _DAMPING, required=True),
     modes=_MODES,
     bearing=key(list_of(PADS, "bearing"), "Pads; default: y and z at every line, x at the first."),
+    point_mass=key(list_of(POINT_MASS, "point_mass"), _POINT_MASSES + " Not of a shell."),
     tracks=_CARRYING["tracks"],
     rail=_RAIL,
     **_for_people(),
@@ -673,7 +722,7 @@ _PLACES = {
 OUTPUT = table(
     "Output",
     "What is told of the crossing.",
-    points=key(anything(_PLACES, _points), "m along the deck; default mid-length."),
+    points=key(measured(anything(_PLACES, _points), "m"), "m along the deck; default mid-length."),
 )
 CHECKS = table(
     "Checks",
@@ -694,7 +743,8 @@ TABLES = {
     "deck": BEAM, "deck.file": SHIPPED, "deck.section": SECTION, "deck.bearing": BEARING,
     "deck.box": BOX, "box deck": BOX_DECK, "box bearing": PADS, "deck.mesh": MESH,
     "deck.modes": MODES, "modal deck": MODAL_DECK, "deck.damping": RAYLEIGH, "modal damping": MODAL,
-    "deck.rail": RAIL,
+    "damping constants": CONSTANTS, "damping per mode": PER_MODE, "deck.pier": PIER,
+    "deck.point_mass": POINT_MASS, "deck.rail": RAIL,
     "train": OF_ONE_KIND, "mixed train": MIXED, "train.cars": SEVERAL, "bare train": BARE,
     "named train": NAMED, "train file": FROM_FILE, "train.notch": NOTCH, "track": TRACK,
     "rails": RAILS, "harmonic": HARMONIC, "table": MEASURED, "random": RANDOM, "file": RECORDED,

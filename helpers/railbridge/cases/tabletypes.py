@@ -28,13 +28,15 @@ from pydantic import (
     create_model,
     model_validator,
 )
+from pydantic.fields import FieldInfo
 
 from .. import errors
 from ..errors import FieldType, InputError, Range, did_you_mean, field_types, joined, written
 
 __all__ = [
     "Key", "Table", "anything", "boolean", "by_key", "by_value", "checked", "fields_of", "key",
-    "list_of", "meanings", "named_numbers", "number", "numbers", "switched", "table", "text",
+    "list_of", "meanings", "measured", "named_numbers", "number", "numbers", "switched", "table",
+    "text", "unit_of",
 ]  # fmt: skip
 
 _TAG = "~"
@@ -166,7 +168,7 @@ def named_numbers(names: tuple[str, ...] | None = None, **limits: Any) -> Any:
     if names is not None:
         properties = dict.fromkeys(names, _schema(kind))
         schema |= {"properties": properties, "additionalProperties": False}
-    return anything(schema, check)
+    return Annotated[anything(schema, check), kind]
 
 
 def anything(schema: dict[str, Any], check: Callable[[Any], Any] = lambda value: value) -> Any:
@@ -216,7 +218,18 @@ def by_value(value: Any, name: str, values: tuple[str, ...], otherwise: str) -> 
 def _annotated(kind: FieldType) -> Any:
     if kind.kind == "other":
         raise TypeError("a field whose type does not say what a file may hold needs one here")
-    return anything(_schema(kind), lambda value: kind.checked("", value))
+    return Annotated[anything(_schema(kind), lambda value: kind.checked("", value)), kind]
+
+
+def measured(kind: Any, unit: str = "") -> Any:
+    """Return the type of numbers that a function checks, with the unit they have."""
+    return Annotated[kind, FieldType("numbers", Range(unit=unit))]
+
+
+def unit_of(field: FieldInfo) -> str | None:
+    """Return the unit of a table's field, empty of a mere number, None of what is no number."""
+    kinds = (note for note in field.metadata if isinstance(note, FieldType))
+    return next((kind.range.unit for kind in kinds if kind.kind.startswith("number")), None)
 
 
 def _schema(kind: FieldType) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 Needs the extra ``study`` where trains are taken over speeds.
 """
 
-from .assessment import Assessment, assess, assess_run
+from .assessment import Assessment, assess, assess_run, usual_speeds
 from .requirements import Requirements
 
-__all__ = ["Assessment", "Requirements", "assess", "assess_run"]
+__all__ = ["Assessment", "Requirements", "assess", "assess_run", "usual_speeds"]

@@ -12,10 +12,11 @@ from .. import codes, errors
 from ..codes import Answer, Verdicts
 from ..crossing import compute
 from ..decks import Deck
-from ..errors import brief
+from ..errors import InputError, brief
 from ..results import Crossing
-from ..settings import check
-from ..studies import Between, Crossings, Row, Store, crossings, row_of_run
+from ..settings import STATIONS, check
+from ..studies import Between, Row, Store, crossings, row_of_run
+from ..studies.envelopes import Crossings
 from ..tracks import Level, Track
 from ..trains import AnyTrain, AxleTrain
 from .judging import Finding, Point, Points
@@ -30,7 +31,10 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-__all__ = ["Assessment", "assess", "assess_run"]
+__all__ = ["Assessment", "assess", "assess_run", "usual_speeds"]
+
+_STEP = 0.5
+"""m/s."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +118,7 @@ def assess(
     needs: Requirements,
     *,
     track: Track | None = None,
+    stations: int = STATIONS,
     workers: int = 1,
     store: Store | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -133,6 +138,9 @@ def assess(
     needs : Requirements
     track : Track, optional
         Level if not given.
+    stations : int
+        Places along the deck where its acceleration is looked at, ends included; a multiple of 4
+        and one. Fewer are quicker.
     workers, store, progress
         See `studies.speed_envelope`.
     **options
@@ -155,7 +163,9 @@ def assess(
     """
     errors.instance("deck", deck, Deck)
     errors.instance("needs", needs, Requirements)
-    parts = _Parts(Structure(deck, needs), _offset(deck, options))
+    if errors.integer("stations", stations, least=5, most=1001) % 4 != 1:
+        raise InputError("stations", stations, "must be a multiple of 4 and one", "Take 9 or 41")
+    parts = _Parts(Structure(deck, needs), _offset(deck, options), stations)
     asked = parts.questions.asked
     found = crossings(
         deck, trains, speeds, asked, watched=parts.questions.watched, track=track,
@@ -181,6 +191,25 @@ def assess(
     short = [row if isinstance(row, str) else _part(row, which) for row in found.rows]
     picture = Crossings(found.trains, found.speeds, found.chosen, short).dataset(deck, shown)
     return Assessment(deck, needs, Verdicts(rows), answers, picture, of_trains)
+
+
+def usual_speeds(needs: Requirements, count: int | None = None) -> np.ndarray:
+    """Return the speeds at which a line is usually looked at, m/s, half a metre a second apart.
+
+    To 1.2 times the line's speed, or to the 40 m/s from which a dynamic analysis is asked for; from
+    there, or from a third of it.
+
+    Parameters
+    ----------
+    needs : Requirements
+    count : int, optional
+        How many, instead of half a metre a second apart.
+    """
+    top = max(1.2 * needs.line_speed, 40.0)
+    low = min(40.0, top / 3.0)
+    if count is not None:
+        return np.linspace(low, top, errors.integer("speeds", count, least=2, most=10_000))
+    return np.linspace(low, top, int(np.ceil((top - low) / _STEP)) + 1)
 
 
 def assess_run(run: Crossing, needs: Requirements) -> Verdicts:
@@ -220,11 +249,12 @@ class _Parts:
 
     structure: Structure
     offset: float
+    stations: int = STATIONS
     questions: Questions = field(init=False)
     loads: StaticLoads = field(init=False)
 
     def __post_init__(self) -> None:
-        questions = Questions(self.structure)
+        questions = Questions(self.structure, self.stations)
         object.__setattr__(self, "questions", questions)
         object.__setattr__(self, "loads", StaticLoads(self.structure, questions, self.offset))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -11,7 +11,7 @@ from .. import codes
 from ..codes import KeptModes
 from ..decks import Deck, Line, combined
 from ..settings import STATIONS
-from ..studies import Asked, Output, outputs_at, twist_at
+from ..studies import Asked, Output, of_modes_counted, outputs_at, twist_at
 from ..tracks import TWIST_LENGTH
 from .structure import Span, Structure
 
@@ -19,8 +19,6 @@ __all__ = ["NUMBERS", "Bearing", "Questions"]
 
 NUMBERS = ("wheel_unloading", "body_acceleration_z")
 """What is asked of a whole crossing."""
-_BESIDE = 0.01
-"""Share of the deck over which the slope of its end is taken."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,9 +52,12 @@ class Questions:
     Attributes
     ----------
     structure : Structure
+    stations : int
+        Places along the deck where its acceleration is asked for, ends included.
     """
 
     structure: Structure
+    stations: int = STATIONS
 
     @property
     def deck(self) -> Deck:
@@ -71,13 +72,11 @@ class Questions:
     @cached_property
     def accelerations(self) -> tuple[Output, ...]:
         """Vertical accelerations at stations along the deck, of the modes kept."""
-        places = np.linspace(0.0, self.deck.length, STATIONS).round(9)
+        places = np.linspace(0.0, self.deck.length, self.stations).round(9)
         found = outputs_at(self.deck, ("acceleration_z",), places)
         if not self.kept.limit.decided:
             return found
-        most = float(self.kept.limit) * (1.0 + 1e-9)
-        counts = self.deck.frequencies_hz <= most
-        return tuple(replace(output, modal=np.where(counts, output.modal, 0.0)) for output in found)
+        return of_modes_counted(found, self.deck, float(self.kept.limit))
 
     @cached_property
     def displacements(self) -> tuple[Output, ...]:
@@ -105,21 +104,10 @@ class Questions:
 
     @cached_property
     def end_rotations(self) -> tuple[Output, ...]:
-        """Rotations of both ends about the vertical; none where the deck is rigid sideways.
-
-        The slope of the lateral displacement at an end, by three places a hundredth of the deck
-        apart: (-3 v_0 + 4 v_1 - v_2) / (2 h).
-        """
-        length = self.deck.length
-        h = _BESIDE * length
-        found = []
-        for end, inwards in ((0.0, h), (length, -h)):
-            lines = self._lateral(end, end + inwards, end + 2 * inwards)
-            if lines:
-                weights = np.array([-3.0, 4.0, -1.0]) / (2 * inwards)
-                line = combined(list(zip(weights, lines, strict=True)))
-                found.append(Output("end rotation", end, line.modal, line))
-        return tuple(found)
+        """Rotations of both ends about the vertical; none where the deck is rigid sideways."""
+        if self.deck.recovery.section("rotation_z", 0.0) is None:
+            return ()
+        return outputs_at(self.deck, ("rotation_z",), (0.0, self.deck.length))
 
     @cached_property
     def bows(self) -> tuple[tuple[Span, Output], ...]:
@@ -175,7 +163,7 @@ class Questions:
     @property
     def watched(self) -> list[int]:
         """What decides where chosen speeds lie: mid-spans and the quarters of the deck."""
-        quarters = self.accelerations[:: (STATIONS - 1) // 4][1:-1]
+        quarters = self.accelerations[:: (self.stations - 1) // 4][1:-1]
         own = [*quarters, *self.displacements, *(output for _, output in self.moments)]
         return [self.number_of[id(output)] for output in own]
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from .. import errors
+from ..cutoffs import counted, different, en1990_limit
 from ..errors import InputError
 from ..tracks import TWIST_LENGTH
 from .clauses import KMH, LENGTH, SPEED, UNSEEN, Answer, Clause, by_clause, not_above
@@ -35,11 +38,11 @@ _ACCELERATION = Clause(
 )  # fmt: skip
 _FREQUENCIES = Clause(
     "highest frequency of deck accelerations", _CODE, _PLACE, "Hz", "memory",
-    conditions="three frequencies of the member or more are known",
+    conditions="three different frequencies of the member or more are known",
 )  # fmt: skip
 _KEPT = Clause(
     "modes in deck accelerations", _CODE, _PLACE, "", "memory",
-    conditions="three frequencies of the member or more are known",
+    conditions="three different frequencies of the member or more are known",
 )  # fmt: skip
 _TWIST = Clause(
     "twist over 3 m", _CODE, _PLACE, "m", "two", sense=_MOST,
@@ -148,6 +151,8 @@ def _ascending(frequencies: Sequence[float]) -> list[float]:
 def frequency_limit(frequencies: Sequence[float]) -> Answer:
     """Return up to where modes count in deck accelerations: the largest of 30 Hz, 1.5 f1 and f3.
 
+    Equal frequencies, as of spans alike in a row, count once; see `railbridge.cutoffs`.
+
     Parameters
     ----------
     frequencies : sequence of float
@@ -163,10 +168,11 @@ def frequency_limit(frequencies: Sequence[float]) -> Answer:
     InputError
     """
     found = _ascending(frequencies)
-    if len(found) < 3:
-        reason = f"the third frequency is not known, only {len(found)} of them"
+    limit = en1990_limit(found)
+    if limit is None:
+        reason = f"the third frequency is not known, only {len(different(found))} different ones"
         return Answer(None, _FREQUENCIES, reason)
-    return Answer(max(30.0, 1.5 * found[0], found[2]), _FREQUENCIES)
+    return Answer(limit, _FREQUENCIES)
 
 
 @by_clause(_KEPT)
@@ -194,7 +200,7 @@ def kept_modes(frequencies: Sequence[float]) -> KeptModes:
     found, limit = _ascending(frequencies), frequency_limit(frequencies)
     if not limit.decided:
         return KeptModes(limit, (), False)
-    kept = tuple(i for i, f in enumerate(found, start=1) if not_above(f, float(limit)))
+    kept = tuple((np.flatnonzero(counted(found, float(limit))) + 1).tolist())
     return KeptModes(limit, kept, len(kept) < len(found))
 
 

@@ -363,7 +363,7 @@ def _new(given: argparse.Namespace) -> int:
         raise InputError("file", given.file, "must end in .toml")
     try:
         make = pages.study_starter if given.study else pages.starter
-        _write_new(path, make(path.name))
+        staging.new_file(path, make(path.name))
     except FileExistsError:
         raise InputError(
             "file", given.file, "exists already and is left alone", "Choose another name"
@@ -376,17 +376,6 @@ def _new(given: argparse.Namespace) -> int:
     return 0
 
 
-def _write_new(path: Path, text: str) -> None:
-    """Write a file that must not exist yet; whole, or it does not exist afterwards either."""
-    with path.open("x", encoding="utf-8") as file:
-        try:
-            file.write(text)
-            file.flush()
-        except BaseException:
-            path.unlink()
-            raise
-
-
 def _list(given: argparse.Namespace) -> int:
     for kind in [given.kind] if given.kind else KINDS:
         print(kind)
@@ -395,8 +384,10 @@ def _list(given: argparse.Namespace) -> int:
                 said = f"{t.axles} axles, {t.length:.4g} m, {t.weight / 1e3:.5g} kN"
                 tell(f"  {t.name:<20}{said}")
             continue
-        for name in shelf.data_names(kind):
-            tell(f"  {name:<20}{_about(shelf.data_file(kind, name))}".rstrip())
+        names = shelf.data_names(kind)
+        width = max([20, *(len(name) + 1 for name in names)])
+        for name in names:
+            tell(f"  {name:<{width}}{_about(shelf.data_file(kind, name))}".rstrip())
     return 0
 
 
@@ -455,7 +446,7 @@ def _mark(given: argparse.Namespace) -> int:
     progress = Progress(quiet=False)
     rows = marking.marked(handed_in, jobs, progress=progress)
     progress.end()
-    _write_new(Path(given.out), marking.table(rows, asked))
+    staging.new_file(Path(given.out), marking.table(rows, asked))
     for row in rows:
         for remark in row.remarks:
             tell(f"{row.student}: {remark}")

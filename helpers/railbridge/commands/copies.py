@@ -35,6 +35,7 @@ PAGES = (
     "docs/spectra.md",
     "docs/studies.md",
     "docs/symbols.md",
+    "docs/units.md",
     "docs/crossing.png",
     "docs/speed_wavelength.png",
 )

@@ -105,7 +105,7 @@ def _plot(given: argparse.Namespace) -> int:
         say(f"{message} What there is was drawn all the same.")
     if not given.quiet:
         for kind, reason in gallery.absent(run, kinds).items():
-            say(f"no {kind}: {reason}")
+            say(f"left out: {kind} ({reason})")
         say(f"{drawn} picture{'s' * (drawn != 1)} written to {given.out}")
     # A run that has not settled is said in words by the remark that was printed as a warning.
     return 3 if message or unsettled(run) else 0

@@ -30,7 +30,7 @@ from scipy.interpolate import CubicSpline
 
 from .. import errors
 from ..bounds import BOUNDS, frequency_off, usual_frequencies
-from ..decks import Deck, cut_group, rayleigh_ratio
+from ..decks import RATIO, Damping, Deck, checked_damping, cut_group, damping_ratios
 from ..errors import InputError, Remark, ResultWarning, brief
 from ..guideways import PiecewiseCubic
 from ..plausibility import UNUSUAL, first_vertical, longest_span, scale_in_doubt
@@ -146,7 +146,7 @@ def deck_from_modes(
     model: ModalModel,
     line: RailLine,
     name: str = "deck",
-    damping: tuple[float, float] | float | None = None,
+    damping: Damping | None = None,
     *,
     count: int | None = None,
     tracks: Mapping[str, float] | None = None,
@@ -163,8 +163,8 @@ def deck_from_modes(
     line : RailLine
         From ``model.nodes.line(...)``.
     name : str
-    damping : (alpha, beta) of Rayleigh, or one ratio, optional
-        Instead of the file's own; needed where it has none.
+    damping : float, tuple of float, or ModalDamping, optional
+        As for `Beam.deck`, instead of the file's own; needed where it has none.
     count : int, optional
         How many of the lowest modes that move the rail are kept; all if not given.
     tracks, width, track_height, supports
@@ -204,11 +204,10 @@ def deck_from_modes(
         _refuse_units(line, supports, frequencies, rail, size[kept])
     if model.masses is None:
         _warn_of_overlap(model, motion, kept, said)
-    if damping is not None and np.isscalar(damping):
-        ratios = np.full(len(kept), errors.number("damping", damping, least=0.0, most=0.5))
-    elif damping is not None:
-        alpha, beta = errors.numbers("damping", damping, count=2, least=0.0)
-        ratios = rayleigh_ratio(alpha, beta, frequencies)
+    if damping is not None:
+        if np.isscalar(damping):
+            RATIO.checked("damping", damping)
+        ratios = damping_ratios(checked_damping(damping), frequencies)
     elif np.isfinite(model.damping_ratios).all():
         ratios = model.damping_ratios[kept]
     else:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
-from ..decks import Deck
+from ..decks import Damping, Deck
 from ..errors import Range, brief, check_fields, within
 from .files import read_modes
 from .modal import deck_from_modes
@@ -94,13 +94,13 @@ class ModesTable:
             with within("axis"):
                 object.__setattr__(self, "axis", axis_place(self.axis))
 
-    def deck(self, damping: tuple[float, float] | float | None = None, **own: Any) -> Deck:
+    def deck(self, damping: Damping | None = None, **own: Any) -> Deck:
         """Read the files and return the deck that their modes make.
 
         Parameters
         ----------
-        damping : (alpha, beta) of Rayleigh, or one ratio, optional
-            Instead of the file's own; needed where it has none.
+        damping : float, tuple of float, or ModalDamping, optional
+            As for `Beam.deck`, instead of the file's own; needed where it has none.
         own
             ``name``, ``tracks``, ``width``, ``track_height``; see `deck_from_modes`.
 

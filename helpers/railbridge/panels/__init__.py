@@ -11,6 +11,7 @@ drawing from `plots`.
     panel.close()                              # frees it, as running its cell again does
 """
 
+from .bridgeform import BridgeForm
 from .control import Control
 from .notebook_panels import (
     deck_modes,
@@ -21,11 +22,13 @@ from .notebook_panels import (
     overview,
     rigid_forces,
 )
+from .ownbridge import own_bridge
 from .panel import FALLBACK, Panel
 from .randomtrack import random_track
 from .wheels import wheels_with_mass
 
 __all__ = [
-    "FALLBACK", "Control", "Panel", "deck_modes", "deck_response", "fixed_point", "irregularities",
-    "map_and_crossing", "overview", "random_track", "rigid_forces", "wheels_with_mass",
+    "BridgeForm", "FALLBACK", "Control", "Panel", "deck_modes", "deck_response", "fixed_point",
+    "irregularities", "map_and_crossing", "overview", "own_bridge", "random_track", "rigid_forces",
+    "wheels_with_mass",
 ]  # fmt: skip

@@ -13,7 +13,10 @@ from importlib.resources import files
 
 import ipywidgets as widgets
 
-__all__ = ["class_of", "looks"]
+__all__ = ["boxed", "class_of", "looks", "refusal"]
+
+# Readable on light and dark pages: ground, letters, edge.
+_COLOURS = {"alert": ("#fdecea", "#7a0c17", "#b00020"), "note": ("#fff4d6", "#5c4300", "#b07d00")}
 
 
 def class_of(width: float, height: float) -> str:
@@ -28,6 +31,19 @@ def looks(width: float, height: float) -> widgets.HTML:
     """
     style = f'<style onload="{escape(_text("panel.js"))}">{_style(width, height)}</style>'
     return widgets.HTML(style, layout=widgets.Layout(display="none"))
+
+
+def boxed(words: str, role: str) -> str:
+    """Return HTML in a box, an ``alert`` that is read out at once or a ``note``."""
+    ground, letters, edge = _COLOURS[role]
+    style = f"line-height:1.35;background:{ground};color:{letters};"
+    style += f"border-left:4px solid {edge};padding:4px 10px"
+    return f'<div role="{role}" style="{style}">{words}</div>'
+
+
+def refusal(error: Exception, more: str = "") -> str:
+    """Return in a box what is not possible, and why."""
+    return boxed(f"<b>Not possible:</b> {escape(str(error))} {more}".rstrip(), "alert")
 
 
 def _style(width: float, height: float) -> str:

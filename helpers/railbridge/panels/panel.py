@@ -30,7 +30,7 @@ from ..results import Crossing
 from ..settings import default_time_step
 from .code import case_lines
 from .control import Control, change_at, for_case
-from .looks import class_of, looks
+from .looks import boxed, class_of, looks, refusal
 from .standing import stands_here
 
 __all__ = ["DPI", "FALLBACK", "Panel"]
@@ -85,6 +85,11 @@ class Panel:
     rough : bool
         Whether the result is a crossing, so that a coarser time step serves while a control is
         moved.
+    preview : callable, optional
+        ``preview(case, progress)`` returns what serves while a control is moved, where a coarser
+        time step does not.
+    preview_note : str
+        How that is told apart from what follows, in a sentence.
     dpi : float
         Dots per inch of the picture; more for a projector.
     behind : mapping of sequence of str
@@ -113,6 +118,8 @@ class Panel:
         size: tuple[float, float] = (FIGURE_WIDTH, 4.6),
         heights: Sequence[float] | None = None,
         rough: bool = False,
+        preview: Callable[[Case, Progress | None], Any] | None = None,
+        preview_note: str = "",
         dpi: float = DPI,
         behind: Mapping[str, Sequence[str]] = MappingProxyType({}),
         start_name: str = "at the start",
@@ -124,7 +131,8 @@ class Panel:
         self.case = self._base = case
         self._draw, self._say, self._compute = draw, say, compute
         self._remarks = remarks or _usual_remarks
-        self._code, self._rough = code, rough
+        self._code, self._rough = code, rough or preview is not None
+        self._preview, self._preview_note = preview, preview_note
         self._results: OrderedDict[tuple, tuple[Case, Any]] = OrderedDict()
         self._links: list[widgets.Widget] = []
         self._moves = 0
@@ -399,7 +407,10 @@ class Panel:
                 for path in control.paths:
                     change_at(changes, self._base, path, values[name])
             case = self._base.replace(changes)
-            result = self._compute(_coarser(case) if rough else case, progress)
+            if rough and self._preview is not None:
+                result = self._preview(case, progress)
+            else:
+                result = self._compute(_coarser(case) if rough else case, progress)
             self._results[key] = solved = case, result
             while len(self._results) > RESULTS_KEPT:
                 self._results.popitem(last=False)
@@ -435,7 +446,9 @@ class Panel:
     def _show_case(self, rough: bool) -> None:
         self.image.value = b"data:image/png;base64," + b64encode(self._picture.png())
         note = ""
-        if self._rough:
+        if self._preview is not None:
+            note = f"<i>{self._preview_note}</i>" if rough else ""
+        elif self._rough:
             exact = _ms(self.case.settings.time_step)
             note = f"Time step {exact}."
             if rough:
@@ -447,11 +460,10 @@ class Panel:
 
     def _show_error(self, error: Exception) -> None:
         self.error = error
-        words = "(The picture shows the last possible case.)"
-        words = f"<b>Not possible:</b> {escape(str(error))} {words}"
-        self.trouble.value = f'<div role="alert" style="{_ALERT}">{words}</div>'
+        self.trouble.value = refusal(error, "(The picture shows the last possible case.)")
         if self._shows_rough:  # nothing follows any more
-            self._write_summary(False, f"Time step up to {_ms(ROUGH_STEP)}.")
+            told = self._preview_note or f"Time step up to {_ms(ROUGH_STEP)}."
+            self._write_summary(False, told)
 
     def _write_summary(self, rough: bool, note: str) -> None:
         """Write the summary, to be read out where it stays."""
@@ -479,16 +491,6 @@ class Panel:
         return {**bundle, "text/plain": FALLBACK}
 
 
-# Readable on light and dark pages.
-_ALERT = (
-    "line-height:1.35;background:#fdecea;color:#7a0c17;"
-    "border-left:4px solid #b00020;padding:4px 10px"
-)
-
-
-_NOTE = _ALERT.replace("#fdecea;color:#7a0c17", "#fff4d6;color:#5c4300").replace(
-    "#b00020", "#b07d00"
-)
 REMARKS_SHOWN = 3
 
 
@@ -506,7 +508,7 @@ def _as_html(remarks: Sequence[Remark]) -> str:
     more = len(lines) - REMARKS_SHOWN
     rest = [f"And {more} more; see the remarks of the summary."] if more > 0 else []
     words = "<br>".join(lines[:REMARKS_SHOWN] + rest)
-    return f'<div role="note" style="{_NOTE}">{words}</div>'
+    return boxed(words, "note")
 
 
 def _with_parts(roots: Sequence[widgets.Widget]) -> list[widgets.Widget]:

@@ -37,6 +37,7 @@ from .shells import assurance, box_section, shell_mode, shell_modes
 from .sketches import vehicle, vehicle_mode
 from .style import STYLE as STYLE
 from .track import frequencies, irregularity, notch, slope, wheel_paths, wheels_on_track
+from .verdictbars import utilisation
 
 __all__ = [
     "acceleration", "animate_car_on_waves", "animate_crossing", "animate_rigid_and_flexible",
@@ -44,7 +45,7 @@ __all__ = [
     "damping", "deck_envelope", "deck_mode", "deck_modes", "deviations", "diagram", "displacement",
     "envelope", "extremes", "frequencies", "influence_line", "irregularity", "iterations",
     "load_modes", "map", "notch", "random_response", "reactions", "section_force", "shell_mode",
-    "shell_modes", "slope", "spectra", "spectrum", "track_spectra", "train_on_deck", "vehicle",
-    "vehicle_mode", "velocity", "wave_shares", "wheel_force", "wheel_forces", "wheel_paths",
-    "wheels_on_track",
+    "shell_modes", "slope", "spectra", "spectrum", "track_spectra", "train_on_deck", "utilisation",
+    "vehicle", "vehicle_mode", "velocity", "wave_shares", "wheel_force", "wheel_forces",
+    "wheel_paths", "wheels_on_track",
 ]  # fmt: skip

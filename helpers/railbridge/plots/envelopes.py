@@ -75,7 +75,7 @@ def envelope(
             "ls": _DASHES[i // len(RUN_COLOURS) % 3],
         }
         line |= {"lw": 2.6, "zorder": 2.5} if i == worst else {"lw": 1.2}
-        curve(ax, f"train {name}", speeds, factor * values[i], label=literal(name), **line)
+        curve(ax, f"train {i + 1}", speeds, factor * values[i], label=literal(name), **line)
     beside = [(f"{quantity}_static", "static", {"ls": "--", "lw": 1.0})]
     if quantity == "acceleration_z":
         beside.append(("signature", "signature", {"ls": "-", "lw": 0.8}))
@@ -87,7 +87,7 @@ def envelope(
             label = f"{word} of {literal(names[i])}" if len(shown) < len(names) else word
             colour = {"color": RUN_COLOURS[i % len(RUN_COLOURS)], "zorder": 1.8}
             label = label if rank == 0 else None
-            curve(ax, f"{word} {names[i]}", speeds, factor * own[i], label=label, **line, **colour)
+            curve(ax, f"{word} {i + 1}", speeds, factor * own[i], label=label, **line, **colour)
     if limit is not None:
         shown_limit = {"label": f"{limit_name}, {factor * limit:g} {unit}", "color": "k", "lw": 1.4}
         curve(ax, "limit", speeds[[0, -1]], [factor * limit] * 2, ls=(0, (8, 3)), **shown_limit)

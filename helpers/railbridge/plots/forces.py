@@ -256,11 +256,19 @@ def spectra(
         if i:
             line = {"name": "rigid", "color": GREY, "ls": "", "marker": "_", "ms": 7}
             quantity_curve(ax, "force_z", rigid.frequency, rigid.amplitude, **line)
-            title = f"i = {i}, Eq. 3: {deviation_percent(iterated, rigid):+.3f} %"
+            deviation = deviation_percent(iterated, rigid)
+            # On level track the rigid deck's force is constant, and Eq. 3 divides by nothing.
+            title = f"i = {i}" + f", Eq. 3: {deviation:+.3f} %" * bool(np.isfinite(deviation))
         spectrum(iterated, ax)
         ax.set_title(title, loc="left", fontsize="medium")
         ax.label_outer()
         if place >= len(iterations) - 3:  # the lowest of its column
             ax.tick_params(labelbottom=True)
             ax.set_xlabel("frequency (Hz)")
+    # The first axes has set the limits of all to its own lines.
+    highest = max(
+        style_of("force_z").factor * run.at(i).spectrum.amplitude.max() for i in iterations
+    )
+    if highest > axes[0].get_ylim()[1]:
+        axes[0].set_ylim(top=1.05 * highest)
     return axes

@@ -258,8 +258,10 @@ def _values(run: Crossing, quantity: str, x: float, car: int) -> np.ndarray:
     """Return a quantity over time: of a car, or of the deck at x."""
     if quantity in CONDENSED:
         return run.car_forces(car)[quantity]
-    if quantity.startswith(("displacement", "rotation")):
+    if quantity.startswith("displacement"):
         return run.displacement(x)[quantity]
+    if quantity.startswith("rotation"):
+        return run.rotations(x)[quantity]
     if quantity.startswith("acceleration"):
         return run.acceleration(x)[quantity]
     return run.section_forces(x)[quantity]

@@ -45,8 +45,9 @@ legends. Nothing in the package sets them; a notebook that draws by itself does,
 _FORCE, _COUPLE, _MOTION, _SPEED = "#D55E00", "#882255", "#0072B2", "#56B4E9"
 _ACCELERATION, _SECTION, _REACTION, _TRACK = "#009E73", "#AA4499", "#B07800", "#000000"
 _VERTICAL, _LATERAL, _ROLL = "-", "--", "-."
-# Shear forces have the colour of bending moments; their dashes differ.
-_VERTICAL_SHEAR, _LATERAL_SHEAR = (0, (6, 1)), (0, (2, 1))
+# Shear forces have the colour of bending moments, rotations that of displacements; their dashes
+# differ.
+_OTHER_VERTICAL, _OTHER_LATERAL = (0, (6, 1)), (0, (2, 1))
 
 _DARK = 0.3
 """Mean of red, green and blue below which another shade of a colour is lighter, not darker."""
@@ -95,6 +96,8 @@ QUANTITY_STYLES = {
         "displacement_y": ("lateral displacement", "mm", 1e3, _MOTION, _LATERAL),
         "displacement_z": ("vertical displacement", "mm", 1e3, _MOTION, _VERTICAL),
         "rotation_x": ("twist", "mrad", 1e3, _MOTION, _ROLL),
+        "rotation_y": ("rotation about y", "mrad", 1e3, _MOTION, _OTHER_VERTICAL),
+        "rotation_z": ("rotation about z", "mrad", 1e3, _MOTION, _OTHER_LATERAL),
         "velocity_y": ("lateral velocity", "mm/s", 1e3, _SPEED, _LATERAL),
         "velocity_z": ("vertical velocity", "mm/s", 1e3, _SPEED, _VERTICAL),
         "velocity_roll": ("twist velocity", "mrad/s", 1e3, _SPEED, _ROLL),
@@ -104,8 +107,8 @@ QUANTITY_STYLES = {
         "moment_vertical": ("vertical bending moment", "kN m", 1e-3, _SECTION, _VERTICAL),
         "moment_lateral": ("lateral bending moment", "kN m", 1e-3, _SECTION, _LATERAL),
         "torsion": ("torsion", "kN m", 1e-3, _SECTION, _ROLL),
-        "shear_vertical": ("vertical shear", "kN", 1e-3, _SECTION, _VERTICAL_SHEAR),
-        "shear_lateral": ("lateral shear", "kN", 1e-3, _SECTION, _LATERAL_SHEAR),
+        "shear_vertical": ("vertical shear", "kN", 1e-3, _SECTION, _OTHER_VERTICAL),
+        "shear_lateral": ("lateral shear", "kN", 1e-3, _SECTION, _OTHER_LATERAL),
         "reaction_y": ("lateral reaction", "kN", 1e-3, _REACTION, _LATERAL),
         "reaction_z": ("vertical reaction", "kN", 1e-3, _REACTION, _VERTICAL),
         "reaction_x": ("reaction moment about x", "kN m", 1e-3, _REACTION, _ROLL),

@@ -36,7 +36,7 @@ from ..decks import Deck
 from ..response import lagged, oscillator, ramp_coefficients
 from ..settings import highest_frequency
 from ..trains import AnyTrain
-from .outputs import Output, Peaks
+from .outputs import Output, Peaks, of_modes_counted
 
 __all__ = ["LARGEST_TURN", "NEARLY_CRITICAL", "constant_loads", "place_step"]
 
@@ -67,6 +67,7 @@ def constant_loads(
     *,
     track_offset: float = 0.0,
     tail: float = 1.0,
+    accelerations_up_to_hz: float = np.inf,
 ) -> Peaks:
     """Return the extremes of constant axle loads at many speeds.
 
@@ -82,12 +83,15 @@ def constant_loads(
         m left of the deck axis.
     tail : float
         s of free vibration after the last axle has left.
+    accelerations_up_to_hz : float
+        Up to which frequency modes count in accelerations; see `Settings`.
 
     Notes
     -----
     Displacements and accelerations at peaks between samples are those of a parabola.
     """
     speeds = np.asarray(speeds, dtype=float)
+    outputs = of_modes_counted(outputs, deck, accelerations_up_to_hz)
     found = np.empty((6, len(speeds), len(outputs)))
     steps = np.array([place_step(deck, speed) for speed in speeds])
     for step in np.unique(steps):

@@ -20,7 +20,8 @@ __all__ = ["Dimension", "dataset", "table"]
 
 WORDS = {
     "displacement_y": "lateral displacement", "displacement_z": "vertical displacement",
-    "rotation_x": "twist", "twist": "twist of the track over 3 m",
+    "rotation_x": "twist", "rotation_y": "rotation about the lateral axis",
+    "rotation_z": "rotation about the vertical axis", "twist": "twist of the track over 3 m",
     "moment_vertical": "vertical bending moment", "moment_lateral": "lateral bending moment",
     "torsion": "torsional moment",
     "shear_vertical": "vertical shear", "shear_lateral": "lateral shear",

@@ -172,9 +172,10 @@ def respond(
             mixtures.setdefault(key, []).append(i)
             continue
         if isinstance(job.train, AxleTrain) and not asked.more:
-            constant.setdefault((id(job.train), s.track_offset, s.tail), []).append(i)
+            key = id(job.train), s.track_offset, s.tail, s.accelerations_up_to_hz
+            constant.setdefault(key, []).append(i)
         elif side_by_side and eligible(deck, job, asked.outputs, whole):
-            passes = s.interaction, s.iterations, s.track_offset
+            passes = s.interaction, s.iterations, s.track_offset, s.accelerations_up_to_hz
             lanes.setdefault((id(job.train), advance_of(s), *passes), []).append(i)
         else:
             rows[i] = _one(deck, job, asked)
@@ -193,12 +194,13 @@ def respond(
             continue
         for i, values in zip(some, found, strict=True):
             rows[i] = _checked(values, asked)
-    for (_, offset, tail), own in constant.items():
+    for (_, offset, tail, up_to_hz), own in constant.items():
         train, speeds = jobs[own[0]].train, [jobs[i].settings.speed for i in own]
         try:
             peaks = constant_loads(
-                deck, train, speeds, asked.outputs, track_offset=offset, tail=tail
-            )
+                deck, train, speeds, asked.outputs, track_offset=offset, tail=tail,
+                accelerations_up_to_hz=up_to_hz,
+            )  # fmt: skip
         except Exception as error:  # recorded, not fatal
             if len(own) == 1:
                 rows[own[0]] = Row.failed(asked, _said(error))

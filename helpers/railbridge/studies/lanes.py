@@ -32,7 +32,7 @@ from ..tracks import Harmonic, Level, Track
 from ..trains import AnyTrain, Train
 from .constant import NEARLY_CRITICAL
 from .lanecars import LaneCar, parts_of
-from .outputs import Output
+from .outputs import Output, of_modes_counted
 from .railwaves import RailWaves
 
 __all__ = [
@@ -115,6 +115,8 @@ def run_lanes(
 ) -> np.ndarray:
     """Compute crossings that are `eligible`, of one train, in one advance and number of passes.
 
+    They share what modes count in accelerations, too.
+
     Parameters
     ----------
     deck : Deck
@@ -129,6 +131,7 @@ def run_lanes(
     ndarray, shape (jobs, 6 outputs + numbers)
         The six of `Peaks` for each output, then the numbers.
     """
+    outputs = of_modes_counted(outputs, deck, jobs[0].settings.accelerations_up_to_hz)
     filled = list(jobs) + [jobs[0]] * (-len(jobs) % _FILLED)
     return _Batch(deck, filled).run(outputs, numbers)[: len(jobs)]
 

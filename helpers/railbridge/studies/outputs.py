@@ -8,19 +8,20 @@ value under the standing loads, wherever they stand.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import errors
+from ..cutoffs import counted
 from ..decks import SECTION_QUANTITIES, Deck, History, Line, combined
 from ..errors import InputError
 from ..results import Crossing
 from ..tracks import TRACK_GAUGE, TWIST_LENGTH
 
 __all__ = [
-    "ACCELERATIONS", "OUTPUTS", "Output", "Peaks", "history_of", "outputs_at", "peaks_of_run",
-    "twist_at",
+    "ACCELERATIONS", "OUTPUTS", "Output", "Peaks", "history_of", "of_modes_counted", "outputs_at",
+    "peaks_of_run", "twist_at",
 ]  # fmt: skip
 
 ACCELERATIONS = {"acceleration_y": "m/s2", "acceleration_z": "m/s2", "acceleration_roll": "rad/s2"}
@@ -54,6 +55,11 @@ class Output:
     def is_acceleration(self) -> bool:
         """Whether it is one of `ACCELERATIONS`."""
         return self.quantity in ACCELERATIONS
+
+    @property
+    def is_rotation(self) -> bool:
+        """Whether it is a rotation of the section."""
+        return self.quantity.startswith("rotation")
 
     @property
     def is_force(self) -> bool:
@@ -99,6 +105,21 @@ def _output(deck: Deck, quantity: str, x: float) -> Output:
         allowed = deck.recovery.lacks or "the deck has no such stiffness"
         raise InputError("quantities", quantity, allowed, "Leave it out")
     return Output(quantity, x, line.modal, line)
+
+
+def of_modes_counted(outputs: Sequence[Output], deck: Deck, up_to_hz: float) -> tuple[Output, ...]:
+    """Return outputs whose accelerations are made of the modes up to a frequency (Hz) alone.
+
+    What is not computed by `crossing.compute` must ask for them: outputs know the deck, and not the
+    settings of a crossing.
+    """
+    kept = counted(deck.frequencies_hz, up_to_hz)
+    return tuple(
+        replace(output, modal=np.where(kept, output.modal, 0.0))
+        if output.is_acceleration
+        else output
+        for output in outputs
+    )
 
 
 def twist_at(deck: Deck, x: float) -> Output:
@@ -173,7 +194,8 @@ def history_of(run: Crossing, output: Output) -> History:
         return run.recovered({name: output.line}, units, where=where)
     if output.is_acceleration:
         modal = deck.acceleration(state.q, state.velocity, state.modal_force)
-        return History(run.time, {name: output.modal @ modal}, units, where)
+        (own,) = of_modes_counted([output], deck, run.settings.accelerations_up_to_hz)
+        return History(run.time, {name: own.modal @ modal}, units, where)
     static, step = run.static(output.line), run.settings.time_step
     values = deck.displaced(output.line, state.q, state.modal_force, static, step)
     return History(run.time, {name: values}, units, where)

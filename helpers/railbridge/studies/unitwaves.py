@@ -31,7 +31,7 @@ from ..settings import Settings, check, refuse_bytes
 from ..tracks import Harmonic, Rails, Track
 from ..trains import AnyTrain
 from ..vehicles import Vehicle
-from .outputs import OUTPUTS, Output, outputs_at
+from .outputs import OUTPUTS, Output, of_modes_counted, outputs_at
 from .wavesteps import BLOCK, Asking, Waves, step_waves
 
 __all__ = ["COMPONENTS", "UnitHistory", "UnitWaves", "unit_waves", "wave_forces"]
@@ -160,6 +160,7 @@ def unit_waves(
         raise InputError("points", points, "two of them are the same in six digits")
     base = Track() if base is None else errors.instance("base", base, Track)
     settings = _settings(train, deck, base, float(edges[-1]), options)
+    outputs = of_modes_counted(outputs, deck, settings.accelerations_up_to_hz)
     if not errors.is_list(wheels_of):
         allowed = "must list numbers of cars"
         raise InputError("wheels_of", wheels_of, allowed, f"Write wheels_of = ({wheels_of},)")
