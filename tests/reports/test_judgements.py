@@ -29,7 +29,7 @@ def page(section):
 
 def test_all_that_is_known_of_a_verdict_stands_there():
     section = verdicts_section(VERDICTS)
-    table = section.parts[1]
+    table = section.parts[2]
     heads = [column.head for column in table.columns]
     rows = [dict(zip(heads, row, strict=True)) for row in table.rows]
     assert rows[0] == {
@@ -59,6 +59,11 @@ def test_on_the_page_numbers_have_their_units():
     assert rows[2][2] is None and rows[2][5] is None
 
 
+def test_how_much_is_used_is_drawn_the_same_again():
+    pictures = [verdicts_section(VERDICTS).parts[1] for _ in range(2)]
+    assert pictures[0].kind == "picture" and pictures[0] == pictures[1]
+
+
 def test_verdicts_are_words_and_colours():
     read = page(verdicts_section(VERDICTS))
     looks = [value for value in read.values("class") if value.startswith("verdict")]
@@ -70,7 +75,7 @@ def test_verdicts_are_words_and_colours():
 
 
 def test_each_clause_stands_once_with_edition_and_grade():
-    clauses = verdicts_section(VERDICTS).parts[2]
+    clauses = verdicts_section(VERDICTS).parts[3]
     assert len(clauses.rows) == 4
     first = VERDICTS.rows[0].clause
     assert clauses.rows[0] == (
@@ -83,7 +88,7 @@ def test_the_rule_of_a_value_is_a_clause_too():
     value = codes.Answer(2.0, codes.kept_modes([1.0, 2.0, 3.0]).limit.clause)
     verdict = codes.Verdict(codes.acceleration_limit("ballasted").clause, 3.5, 2.0,
                             value_clause=value.clause)  # fmt: skip
-    clauses = verdicts_section(Verdicts([verdict])).parts[2]
+    clauses = verdicts_section(Verdicts([verdict])).parts[3]
     assert [row[1] for row in clauses.rows] == [verdict.clause.title, value.clause.title]
 
 

@@ -8,11 +8,12 @@ from typing import Any
 
 from ..cases.definition import Case
 from ..cases.tabletypes import meanings
-from ..checks import Assessment, Requirements, assess, assess_run
+from ..checks import Assessment, Requirements, assess_run
 from ..codes import Answer, Verdict, Verdicts
 from ..results import Crossing
 from ..trains import AnyTrain
-from .parts import Column, Section, Table, Words, exact, in_km_h, shown, sized
+from .parts import Column, Picture, Section, Table, Words, exact, in_km_h, shown, sized
+from .pictures import verdict_bars
 
 __all__ = ["judged_over_speeds", "judged_run", "requirements_table", "verdicts_section"]
 
@@ -50,12 +51,7 @@ def judged_over_speeds(
     **how
         ``workers``, ``progress``: see `checks.assess`.
     """
-    if case.requirements is None:
-        return None
-    own = {key: value for key, value in case.options.items() if key != "speed"}
-    return assess(
-        case.deck, dict(trains), speeds, case.requirements, track=case.track, **how, **own
-    )
+    return None if case.requirements is None else case.assess(dict(trains), speeds, **how)
 
 
 def verdicts_section(
@@ -74,13 +70,14 @@ def verdicts_section(
     assessment : Assessment, optional
         For what each train comes to.
     """
-    parts: list[Words | Table] = []
+    parts: list[Words | Table | Picture] = []
     if verdicts is None:
         parts.append(Words(_HOW_TO_ASK, "note"))
     elif not len(verdicts):
         parts.append(Words("No limit applies to what was computed.", "note"))
     else:
-        parts += [_read(verdicts), _numbers(verdicts), _sources(verdicts)]
+        parts += [_read(verdicts), verdict_bars(verdicts)]
+        parts += [_numbers(verdicts), _sources(verdicts)]
     if assessment is not None and len(assessment.of_trains) > 1:
         parts.append(_of_trains(assessment))
     if rules:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import plots
+from ..codes import Verdicts
 from ..decks import Deck
 from ..errors import InputError
 from ..plots import gallery
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "drawn", "modes", "of_run", "over_one", "over_speeds", "over_two", "sketches",
-    "track_picture",
+    "track_picture", "verdict_bars",
 ]  # fmt: skip
 
 _PX = 96.0
@@ -146,6 +147,12 @@ def _settles(run: Crossing) -> bool:
     """Whether there is more than one change to be seen."""
     changes = np.array(run.changes)
     return len(changes) > 1 and bool(np.all(np.isfinite(changes)) and np.any(changes > 0.0))
+
+
+def verdict_bars(verdicts: Verdicts) -> Picture:
+    """Return how much of each limit is used."""
+    about = "How much of each limit is used; bars end at twice the limit"
+    return _picture(about, lambda: plots.utilisation(verdicts).figure)
 
 
 # ---- many crossings
