@@ -183,3 +183,14 @@ def test_a_built_wheel_hands_out_the_same_notebooks_as_the_checkout(site, tmp_pa
     assert handed == lessons.contents()
     assert set(json.loads(record)) == set(handed)
     assert f"{len(handed)} copied" in said
+
+
+def test_a_built_wheel_writes_reports(site, tmp_path):
+    """The page and its style sheet are files of the package."""
+    own = ROOT / "helpers" / "railbridge" / "reports"
+    for file in (own / "page.html", own / "report.css"):
+        carried = site / "railbridge" / "reports" / file.name
+        assert carried.read_bytes() == file.read_bytes()
+    pytest.importorskip("jinja2")
+    code = "from railbridge.reports import Report; print(Report('t', 'a', ()).html()[:15])"
+    assert with_wheel(site, tmp_path, "-c", code).strip() == "<!DOCTYPE html>"

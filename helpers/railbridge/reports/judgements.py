@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
+import numpy as np
+
 from ..cases.definition import Case
 from ..cases.tabletypes import meanings
 from ..checks import Assessment, Requirements, assess_run
@@ -163,6 +165,7 @@ def _of_trains(assessment: Assessment) -> Table:
         speed = float(row["speed"])
         utilisation = None if row["utilisation"] is None else float(row["utilisation"])
         value = sized(factor * float(row["value"]))
+        unit = unit if np.isfinite(value) else ""
         rows.append((str(train), what, row["verdict"], value, unit or "-",
                      utilisation, speed, in_km_h(speed)))  # fmt: skip
     return Table.of("verdicts of trains", "What each train comes to", heads, rows)
