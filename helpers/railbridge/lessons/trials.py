@@ -440,15 +440,13 @@ def _phases_together(answer: Callable, x: np.ndarray, waves: np.ndarray, powers:
 
 
 def _line_speed() -> list[Case]:
-    speeds = np.array([40.0, 45.0, 50.0, 55.0, 60.0])
-    a = np.array([[1.2, 2.0, 2.9, 3.1, 3.3], [0.8, 1.1, 3.5, 2.0, 2.2]])
-    failed = np.array([[1.2, 2.0, np.nan, 2.6, 2.7], [0.8, 1.1, 1.5, 2.0, 2.2]])
-    island = np.array([[1.2, 2.0, 2.9, 4.1, 3.0], [0.8, 4.4, 2.4, 2.0, 2.2]])
+    speeds = np.array([40.0, 46.0, 52.0, 58.0, 63.0])
+    peak = np.array([[1.2, 2.0, 4.1, 2.6, 3.3], [0.8, 3.5, 2.4, 2.0, 2.2]])
+    failed = np.array([[1.2, 2.0, 2.9, np.nan, 2.7], [0.8, 1.1, 1.5, 2.0, 2.2]])
     rows = [
-        ("all keep the limit, one just so", a, 60.0),
-        ("a peak, and calm behind it", island, 40.0),
-        ("a crossing that failed", failed, 45.0),
-        ("the slowest speed breaks it", a + 3.0, 0.0),
+        ("a limit just reached, then a peak", peak, 46.0),
+        ("a crossing that failed", failed, 52.0),
+        ("the slowest speed breaks the limit", peak + 3.0, 0.0),
     ]
     return [Case(words, (speeds, values, 3.5), np.array(top / 1.2)) for words, values, top in rows]
 
