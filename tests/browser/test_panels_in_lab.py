@@ -71,6 +71,7 @@ SAID = {
     "06_fixed_point_iteration": displacement_at_iteration,
     "07_speed_and_wavelength": displacement_of_the_dot,
     "10_random_track": rarely_exceeded,
+    "11_your_own_bridge": largest_acceleration,
     "13_beyond_the_paper": largest_acceleration,
 }
 

@@ -85,10 +85,13 @@ def test_the_file_is_the_case(tmp_path, kind):
     named = 'a "bridge" \\ of\n two lines'
     own = bridge(kind=kind, name=named, tracks=2, damping=0.01)
     path = own.write(tmp_path / "mine.toml", {"vehicle": "xia2000", "cars": 2})
-    content = tomllib.loads(path.read_text(encoding="utf-8"))
+    written = path.read_text(encoding="utf-8")
+    assert "bending_stiffness_vertical = 3.0e+10 " in written
+    assert not [line for line in written.splitlines() if "#" in line[1:] and " # " not in line]
+    content = tomllib.loads(written)
     assert content == own.content({"vehicle": "xia2000", "cars": 2})
     assert rb.case(str(path)) == own.case({"vehicle": "xia2000", "cars": 2})
-    assert "# kg/m" in path.read_text(encoding="utf-8")
+    assert "# kg/m" in written
 
 
 def test_a_file_that_is_there_is_left_alone(tmp_path):

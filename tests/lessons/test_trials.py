@@ -84,11 +84,17 @@ def hertz(depth, load, stiffness):
     return [load * (d / at_rest) ** 1.5 if d > 0.0 else 0.0 for d in depth]
 
 
+def line_speed(speeds, accelerations, limit):
+    broken = np.flatnonzero(~np.all(np.asarray(accelerations) <= limit, axis=0))
+    first = broken[0] if len(broken) else len(speeds)
+    return speeds[first - 1] / 1.2 if first else 0.0
+
+
 WRITTEN = {
     f.__name__: f
     for f in (
         frequencies, notch_shape, condense, rayleigh_coefficients, static_moment, fixed_point,
-        one_force, lever_rule, resonances, deviation, hertz,
+        one_force, lever_rule, resonances, deviation, hertz, line_speed,
     )
 }  # fmt: skip
 
@@ -158,6 +164,10 @@ def test_each_trial_is_passed_by_a_function_written_here():
             "each by itself",
         ),
         ("deviation", lambda f, x, w, s: deviation(f, x, w, 2 * s), "root of two off"),
+        ("line_speed", lambda v, a, top: 1.2 * line_speed(v, a, top), "Case 1, .*divide"),
+        ("line_speed", lambda v, a, top: line_speed(v, np.where(a < top, a, 9), top), "is kept"),
+        ("line_speed", lambda v, a, top: line_speed(v, np.nan_to_num(a), top), "2 of 3.*is not"),
+        ("line_speed", lambda v, a, top: max(v[(a <= top).all(0)], default=0) / 1.2, "behind a"),
         ("fixed_point", lambda f, x: steps(f, x, lambda change: change < 1e-10), "negative"),
         ("fixed_point", lambda f, x: steps(f, x, lambda change: abs(change) < 1e-3), "too early"),
         ("fixed_point", lambda f, x: f(x), "after one step"),

@@ -69,6 +69,8 @@ PAGES = {
     "09": Page((GOALS, CHECK, EXERCISES, FOUND, REFERENCES, SYMBOLS), (500, 3000), (20, 280)),
     # Two subjects: what a random track is, and what can be said of a crossing of it.
     "10": Page(words=(500, 2000), code_lines=(40, 180)),
+    # Verdicts and where they come from; then two real bridges, each with what is known of it.
+    "11": Page(words=(500, 2000), code_lines=(40, 180)),
     # The other program that the page needs is written out on it.
     "12": Page(code_lines=(40, 170)),
     # Three subjects: wheels with mass, rails, contacts that part.

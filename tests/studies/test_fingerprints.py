@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import railbridge as rb
 from railbridge.studies.fingerprints import fingerprint
 
 
@@ -26,6 +27,32 @@ def test_texts_cannot_be_made_to_look_like_others():
 def test_what_is_not_understood_is_no_fingerprint():
     with pytest.raises(TypeError, match="no fingerprint"):
         fingerprint(object())
+
+
+def test_random_tracks_are_told_apart():
+    """Their spectra hold formulas, functions of the suite; those of others are not understood."""
+
+    def track(name, seed=1):
+        return rb.RandomTrack(name, components=("vertical",), period=400.0, seed=seed)
+
+    different = [track("german-low"), track("german-low", 2), track("german-high")]
+    different += [track("fra-fryba-1"), track("fra-aar-1")]
+    assert len({fingerprint(each) for each in different}) == len(different)
+    assert fingerprint(track("german-low")) == fingerprint(track("german-low"))
+    with pytest.raises(TypeError, match="no fingerprint"):
+        fingerprint(track)
+
+
+def test_trains_run_over_a_random_track_at_several_speeds():
+    deck = rb.SimpleBridge(
+        span=20.0, mass=12e3, bending_stiffness=3e10, kind="steel", line_speed=50.0
+    ).case().deck  # fmt: skip
+    track = rb.RandomTrack("german-low", components=("vertical",), period=800.0)
+    train = rb.Train(rb.vehicle("xia2000_planar"))
+    over = rb.speed_envelope(deck, train, [40.0, 50.0], track=track)
+    run = rb.cross(train, deck, track, speed=50.0)
+    at = over.displacement_z.sel(speed=50.0, x=10.0, method="nearest").item()
+    assert at == pytest.approx(abs(run.displacement(10.0).extreme("displacement_z")[0]), rel=1e-6)
 
 
 def test_another_version_of_the_program_is_another_crossing(monkeypatch):

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import numpy as np
+
 from .. import errors
 from ..codes import DAMPING, damping_lower_bound
 from ..cutoffs import EN1990_LEAST
@@ -252,6 +254,10 @@ _MEANT = {
 """Comments in the file."""
 
 
+_LARGE = 1e7
+"""From which on numbers are written with a power of ten."""
+
+
 def _toml(bridge: SimpleBridge, train: Mapping[str, Any] | None, speed: float | None) -> str:
     """Return the case as TOML with comments; keys as in docs/case.md."""
     f1, kmh = bridge.first_frequency, 3.6 * bridge.line_speed
@@ -264,7 +270,7 @@ def _toml(bridge: SimpleBridge, train: Mapping[str, Any] | None, speed: float | 
         for key, value in keys.items():
             meant = _MEANT.get(f"{table}.{key}", "")
             line = f"{key} = {_written(value)}"
-            lines.append(f"{line:42}# {meant}" if meant else line)
+            lines.append(f"{line:41} # {meant}" if meant else line)
     return "\n".join(lines) + "\n"
 
 
@@ -278,4 +284,6 @@ def _written(value: Any) -> str:
         return "{ " + ", ".join(f"{key} = {_written(v)}" for key, v in value.items()) + " }"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(_written, value)) + "]"
+    if isinstance(value, float) and abs(value) >= _LARGE:
+        return np.format_float_scientific(value, trim="0")
     return repr(value)

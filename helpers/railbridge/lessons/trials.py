@@ -439,6 +439,38 @@ def _phases_together(answer: Callable, x: np.ndarray, waves: np.ndarray, powers:
     return np.sqrt(powers @ np.array(pairs))
 
 
+def _line_speed() -> list[Case]:
+    speeds = np.array([40.0, 46.0, 52.0, 58.0, 63.0])
+    peak = np.array([[1.2, 2.0, 4.1, 2.6, 3.3], [0.8, 3.5, 2.4, 2.0, 2.2]])
+    failed = np.array([[1.2, 2.0, 2.9, np.nan, 3.7], [0.8, 1.1, 1.5, 2.0, 2.2]])
+    rows = [
+        ("a limit just reached, then a peak", peak, 46.0),
+        ("a crossing that failed", failed, 52.0),
+        ("the slowest speed breaks the limit", peak + 3.0, 0.0),
+    ]
+    return [Case(words, (speeds, values, 3.5), np.array(top / 1.2)) for words, values, top in rows]
+
+
+def _undivided(speeds: np.ndarray, accelerations: np.ndarray, limit: float) -> float:
+    kept = (accelerations <= limit).all(axis=0)
+    return float(speeds[: int(np.argmin(np.append(kept, False)))].max(initial=0.0))
+
+
+def _last_kept(speeds: np.ndarray, accelerations: np.ndarray, limit: float) -> float:
+    kept = (accelerations <= limit).all(axis=0)
+    return float(speeds[kept].max(initial=0.0)) / 1.2
+
+
+def _unknown_is_met(speeds: np.ndarray, accelerations: np.ndarray, limit: float) -> float:
+    kept = ~(accelerations > limit).any(axis=0)
+    return float(speeds[: int(np.argmin(np.append(kept, False)))].max(initial=0.0)) / 1.2
+
+
+def _below_the_limit(speeds: np.ndarray, accelerations: np.ndarray, limit: float) -> float:
+    kept = (accelerations < limit).all(axis=0)
+    return float(speeds[: int(np.argmin(np.append(kept, False)))].max(initial=0.0)) / 1.2
+
+
 TRIALS = {
     "frequencies": Trial(
         _frequencies,
@@ -489,6 +521,22 @@ TRIALS = {
                 _phases_together,
                 "square what cosine and sine give each by itself, and add the squares then.",
             ),
+        ),
+    ),
+    "line_speed": Trial(
+        _line_speed,
+        slips=(
+            Slip(_undivided, "a line for v is looked at up to 1.2 v: divide."),
+            Slip(
+                _last_kept,
+                "it looks behind a peak: a train reaches the calm speeds only through the others.",
+            ),
+            Slip(
+                _unknown_is_met,
+                "it takes NaN as met: what is not known is not. Ask for <=, not for the opposite "
+                "of >.",
+            ),
+            Slip(_below_the_limit, "a limit that is just reached is kept."),
         ),
     ),
     "hertz": Trial(
