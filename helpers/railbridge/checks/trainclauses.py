@@ -132,11 +132,11 @@ class TrainClauses:
 
     def _track_factor(self, span: Span, speed: float) -> Answer:
         """Return 1 + phi''/2 of a span."""
-        length, n0 = self.structure.length_of(span), self.structure.n0
+        length, n0 = self.structure.length_of(span), self.structure.n0_of(span)
         if not length.decided:
             return Answer(None, codes.track_factor.clause, length.reason)
         if n0 is None:
-            reason = "the deck has no mode of vertical bending"
+            reason = f"the deck has no mode of vertical bending of span {span.number}"
             return Answer(None, codes.track_factor.clause, reason)
         return codes.track_factor(float(length), n0, speed)
 
