@@ -423,3 +423,26 @@ def test_whole_numbers_that_are_floats_are_stations_too():
     train = rb.AxleTrain((0.0,), (1e5,))
     found = rb.assess(deck(4), train, [40.0], NEEDS, stations=9.0)
     assert len(found.envelope.x) == 9
+
+
+def test_the_unevenness_goes_by_the_span_that_bends():
+    own = rb.Beam("row", (20.0, 16.0), M, 2e10, continuous=False).deck(9, 0.01)
+    run = rb.cross(rb.AxleTrain((0.0,), (200e3,)), own, speed=37.5)
+    row = rows(rb.assess_run(run, NEEDS))["moment by dynamic analysis"]
+    assert row.where == 28.0
+    n0, static, exp = np.pi / (2 * 16.0**2) * np.sqrt(2e10 / M), 200e3 * 16.0 / 4, np.exp
+    unevenness = (56 * exp(-(1.6**2)) + 50 * (16.0 * n0 / 80 - 1) * exp(-(0.8**2))) / 100
+    moving = -run.section_forces(28.0).extremes("moment_vertical")[0][0]
+    assert row.value == pytest.approx(moving + unevenness / 2 * static, rel=1e-4)
+
+
+def test_a_track_that_is_level_vertically_is_perfect():
+    coaches, wave = rb.Train(rb.vehicle("xia2000"), cars=1), rb.Harmonic(1e-3, wavelength=20.0)
+    sideways = rb.Track(lateral=wave)
+    flat = rb.Harmonic(0.0, wavelength=20.0)
+    tracks = (sideways, rb.Track(vertical=flat), rb.Track(vertical=[flat, rb.Level()]))
+    stiff = rb.Beam("beam", (L,), M, 2e10, bending_stiffness_lateral=2e11).deck(6, 0.01)
+    for track, smooth in [(track, True) for track in tracks] + [(rb.Track(vertical=wave), False)]:
+        row = rows(rb.assess_run(rb.cross(coaches, stiff, track, speed=37.5), NEEDS))
+        assert ("perfect track" in row["wheel unloading"].reason) is smooth
+        assert ("phi'' left out" in row["moment by dynamic analysis"].reason) is not smooth

@@ -17,7 +17,7 @@ from ..results import Crossing
 from ..settings import STATIONS, Options, check
 from ..studies import Between, Row, Store, crossings, row_of_run
 from ..studies.envelopes import Crossings
-from ..tracks import Level, Track
+from ..tracks import Irregularity, Level, Sum, Track
 from ..trains import AnyTrain, AxleTrain
 from .judging import Finding, Point, Points
 from .questions import Questions
@@ -280,11 +280,19 @@ def _all_modes(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _smooth(track: Track | None, trains: Any) -> bool:
-    """Whether rails are level and wheels round: then phi'' speaks for what they are not."""
+    """Whether rails are level and wheels round: then phi'' speaks for what they are not.
+
+    Waves sideways unload no wheel and shake no deck up and down.
+    """
     track = Track() if track is None else track
-    rails = [track.rail(d, side) for d in ("vertical", "lateral") for side in ("left", "right")]
-    level = all(isinstance(rail, Level) for rail in rails)
+    level = all(_flat(track.rail("vertical", side)) for side in ("left", "right"))
     return level and not any(getattr(train, "notches", ()) for train in trains)
+
+
+def _flat(rail: Irregularity) -> bool:
+    if isinstance(rail, Sum):
+        return all(_flat(part) for part in rail.parts)
+    return isinstance(rail, Level) or getattr(rail, "amplitude", None) == 0.0
 
 
 def _points(found: Crossings) -> list[Point]:
