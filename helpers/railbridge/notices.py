@@ -22,7 +22,7 @@ from .settings import (
 from .tracks import Track
 from .trains import AnyTrain, Train, steady_forces
 
-__all__ = ["remarks", "remarks_before", "unsettled"]
+__all__ = ["ends_move", "remarks", "remarks_before", "unsettled"]
 
 FAR = 0.1
 """Last change of the wheel forces from which on a given number of passes stopped far from the
@@ -306,13 +306,18 @@ def _lifting(run: Crossing) -> list[Remark]:
     return [ResultWarning("", text)]
 
 
-def _moving_ends(deck: Deck) -> list[Remark]:
-    """Say that a wheel steps at full weight, or in parts of it, onto an end that moves."""
+def ends_move(deck: Deck) -> bool:
+    """Whether wheels step onto an end of a deck that moves, which spoils its accelerations."""
     if not deck.parts:
-        return []  # a rail on a bed lets loads come smoothly
+        return False  # a rail on a bed lets loads come smoothly
     places = np.linspace(0.0, deck.length, 101)
     vertical = np.abs(deck.shapes(places)[:, :, 1]).max(axis=1)
-    if not max(vertical[0], vertical[-1]) > _STILL * vertical.max():
+    return bool(max(vertical[0], vertical[-1]) > _STILL * vertical.max())
+
+
+def _moving_ends(deck: Deck) -> list[Remark]:
+    """Say that a wheel steps at full weight, or in parts of it, onto an end that moves."""
+    if not ends_move(deck):
         return []
     how = "at full weight" if deck.rail is None else "by quarters and halves of their weight"
     text = (

@@ -118,3 +118,35 @@ def test_the_deck_has_all_modes_that_accelerations_are_asked_of(frequency, more)
     deck = SimpleBridge(**GIVEN, frequency=frequency, **more).case().deck
     kept = rb.codes.kept_modes(deck.frequencies_hz)
     assert kept.complete and kept.limit.decided
+
+
+@pytest.mark.parametrize("name", ["a\x7fb", 'Brücke "Süd" $x_1$ <b>\\ \t\x07', "tab\x1f"])
+def test_a_written_name_is_read_again(tmp_path, name):
+    assert rb.case(bridge(name=name).write(tmp_path / "a.toml")).content["deck"]["name"] == name
+
+
+def test_a_name_that_is_no_text_of_a_file_is_refused(tmp_path):
+    with pytest.raises(InputError, match="name"):
+        bridge(name="half of a pair \ud83d").write(tmp_path / "a.toml")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("path", [None, 3, "a\0b.toml"])
+def test_what_is_no_path_is_refused(path):
+    with pytest.raises(InputError, match="path"):
+        bridge().write(path)
+
+
+def test_a_train_is_a_table():
+    with pytest.raises(InputError, match="train = 'HSLM-A1'.*must be a table"):
+        bridge().case("HSLM-A1")
+
+
+def test_no_damping_is_refused_by_its_own_name():
+    with pytest.raises(InputError, match="^damping = 0"):
+        bridge(damping=0.0)
+
+
+def test_comments_stand_apart_from_long_numbers(tmp_path):
+    text = bridge(bending_stiffness=2.2e10).write(tmp_path / "a.toml").read_text(encoding="utf-8")
+    assert " # E I, N m2" in text

@@ -198,7 +198,7 @@ def test_a_line_that_holds_twist_hides_its_bearings():
 def cars():
     case = rb.case("paper").replace({"train.cars": 2, "run.loads": "wheels"})
     options = {"track_offset": 2.4, "iterations": 2, "lead_in": 20.0}
-    needs = rb.Requirements(line_speed=160 / 3.6, kind="prestressed concrete", track_twist=1e-3)
+    needs = rb.Requirements(line_speed=40.0, kind="prestressed concrete", track_twist=1e-3)
     found = rb.assess(case.deck, {"two cars": case.train}, [40.0], needs, track=case.track,
                       **options)  # fmt: skip
     run = rb.cross(case.train, case.deck, case.track, speed=40.0, **options)
@@ -342,3 +342,107 @@ def test_bad_input_is_refused(changes, said):
 
 def test_the_names_are_offered_at_the_top():
     assert rb.assess is assessment.assess and rb.Assessment is assessment.Assessment
+
+
+# ---- what options and speeds leave out
+
+
+def test_no_option_takes_modes_from_the_acceleration_that_the_clause_counts():
+    own, train = deck(6, 0.02), rb.train("HSLM-A1")
+    plain = rows(rb.assess(own, train, [60.0], NEEDS).verdicts)["deck acceleration"]
+    run = rb.cross(train, own, speed=60.0, acceleration_modes=5.0)
+    of_run = rows(rb.assess_run(run, NEEDS))["deck acceleration"]
+    whole = rb.assess_run(rb.cross(train, own, speed=60.0), NEEDS)
+    assert of_run.value == rows(whole)["deck acceleration"].value
+    coaches = rb.Train(rb.vehicle("xia2000"), cars=1)
+    for moving in (train, coaches):
+        values = [
+            rows(rb.assess(own, moving, [60.0], NEEDS, **option).verdicts)["deck acceleration"]
+            for option in ({}, {"acceleration_modes": 5.0}, {"acceleration_modes": "en1990"})
+        ]
+        known = [row.value if row.value is not None else row.reason for row in values]
+        assert known[0] == known[1] == known[2]
+    assert plain.reason == of_run.reason
+    with pytest.raises(rb.InputError, match="acceleration_modes = 'few'"):
+        rb.assess(own, train, [60.0], NEEDS, acceleration_modes="few")
+
+
+def test_coaches_that_do_not_feel_the_deck_are_not_judged():
+    coaches, own = rb.Train(rb.vehicle("xia2000"), cars=1), deck(6, 0.01)
+    rough = rb.Track(vertical=rb.Harmonic(1e-4, wavelength=20.0))
+    found = rb.assess(own, coaches, [40.0, 45.0], NEEDS, track=rough, interaction="rigid")
+    run = rb.cross(coaches, own, rough, speed=37.5, interaction="rigid")
+    for verdicts in (found.verdicts, rb.assess_run(run, NEEDS)):
+        for name in ("comfort b_v", "wheel unloading"):
+            row = rows(verdicts)[name]
+            assert row.verdict == "cannot decide"
+    assert "do not feel the deck" in rows(rb.assess_run(run, NEEDS))["comfort b_v"].reason
+
+
+def test_crossings_slower_than_the_line_meet_nothing():
+    # 5.32 Hz at 20 m is within Figure 6.10: no dynamic analysis is needed up to 200 km/h.
+    stiff = rb.Beam("beam", (L,), 12e3, 2.2e10).deck(6, 0.01)
+    coaches = rb.Train(rb.vehicle("xia2000"), cars=1)
+    rough = rb.Track(vertical=rb.Harmonic(1e-3, wavelength=20.0))
+    needs = replace(NEEDS, line_speed=50.0)
+    own = ("deck acceleration", "moment by dynamic analysis", "comfort b_v", "wheel unloading")
+    for speeds, met in (([5.0, 6.0], ()), ([5.0, 55.0], own[:2] + own[3:]), ([48.0, 50.0], own)):
+        found = rows(rb.assess(stiff, coaches, speeds, needs, track=rough).verdicts)
+        assert tuple(name for name in own if found[name].verdict == "met") == met
+    slow = rows(rb.assess(stiff, coaches, [6.0], needs, track=rough).verdicts)
+    assert "6 m/s does not reach the line's 50 m/s" in slow["comfort b_v"].reason
+
+
+def test_a_deck_whose_ends_move_leaves_its_acceleration_open():
+    soft = [
+        rb.Bearing(x, held, stiffness={"z": 2e9}) for x, held in ((0.0, "x y roll"), (L, "y roll"))
+    ]
+    own = rb.Beam("beam", (L,), 12e3, 2.2e10, bearings=soft).deck(8, 0.005)
+    train, needs = rb.train("HSLM-A1"), replace(NEEDS, line_speed=60.0)
+    row = rows(rb.assess(own, train, [40.0, 72.0], needs).verdicts)["deck acceleration"]
+    assert row.verdict == "cannot decide" and "an end of the deck moves" in row.reason
+    on_bed = replace(own, rail=rb.Rail(bending_stiffness=1.28e7, foundation=1e8))
+    row = rows(rb.assess(on_bed, train, [40.0, 72.0], needs).verdicts)["deck acceleration"]
+    assert row.verdict == "met" and row.value < 2.5
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"stations": 9.5}, "stations = 9.5"),
+        ({"store": "x"}, "store = 'x'"),
+        ({"progress": 3}, "progress = 3"),
+    ],
+)
+def test_what_is_no_store_and_no_function_is_refused(changes, said):
+    with pytest.raises(rb.InputError, match=said):
+        rb.assess(deck(2), rb.train("HSLM-A1"), [40.0], NEEDS, **changes)
+
+
+def test_whole_numbers_that_are_floats_are_stations_too():
+    train = rb.AxleTrain((0.0,), (1e5,))
+    found = rb.assess(deck(4), train, [40.0], NEEDS, stations=9.0)
+    assert len(found.envelope.x) == 9
+
+
+def test_the_unevenness_goes_by_the_span_that_bends():
+    own = rb.Beam("row", (20.0, 16.0), M, 2e10, continuous=False).deck(9, 0.01)
+    run = rb.cross(rb.AxleTrain((0.0,), (200e3,)), own, speed=37.5)
+    row = rows(rb.assess_run(run, NEEDS))["moment by dynamic analysis"]
+    assert row.where == 28.0
+    n0, static, exp = np.pi / (2 * 16.0**2) * np.sqrt(2e10 / M), 200e3 * 16.0 / 4, np.exp
+    unevenness = (56 * exp(-(1.6**2)) + 50 * (16.0 * n0 / 80 - 1) * exp(-(0.8**2))) / 100
+    moving = -run.section_forces(28.0).extremes("moment_vertical")[0][0]
+    assert row.value == pytest.approx(moving + unevenness / 2 * static, rel=1e-4)
+
+
+def test_a_track_that_is_level_vertically_is_perfect():
+    coaches, wave = rb.Train(rb.vehicle("xia2000"), cars=1), rb.Harmonic(1e-3, wavelength=20.0)
+    sideways = rb.Track(lateral=wave)
+    flat = rb.Harmonic(0.0, wavelength=20.0)
+    tracks = (sideways, rb.Track(vertical=flat), rb.Track(vertical=[flat, rb.Level()]))
+    stiff = rb.Beam("beam", (L,), M, 2e10, bending_stiffness_lateral=2e11).deck(6, 0.01)
+    for track, smooth in [(track, True) for track in tracks] + [(rb.Track(vertical=wave), False)]:
+        row = rows(rb.assess_run(rb.cross(coaches, stiff, track, speed=37.5), NEEDS))
+        assert ("perfect track" in row["wheel unloading"].reason) is smooth
+        assert ("phi'' left out" in row["moment by dynamic analysis"].reason) is not smooth

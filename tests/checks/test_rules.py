@@ -4,7 +4,7 @@ import pytest
 
 import railbridge as rb
 from railbridge.checks.questions import Questions
-from railbridge.checks.rules import coverage, rules, speed_gaps
+from railbridge.checks.rules import coverage, line_gaps, rules, speed_gaps
 from railbridge.checks.structure import Structure
 
 
@@ -63,12 +63,28 @@ def test_speeds_reach_from_40_to_one_fifth_above_the_line(speeds, covered):
     assert bool(answers(speeds=speeds)["speeds_covered"]) is covered
 
 
+def gaps(speeds, line_speed=160 / 3.6, **more):
+    return speed_gaps(answers(speeds=speeds, line_speed=line_speed, **more), speeds, line_speed)
+
+
 def test_speeds_are_asked_for_where_an_analysis_may_be_needed():
     short = (40.0, 50.0)
-    assert speed_gaps(answers(speeds=short)) == ()  # not needed
-    (gap,) = speed_gaps(answers(speeds=short, line_speed=70.0))
+    assert gaps(short) == ()  # not needed
+    (gap,) = gaps(short, 70.0)
     assert "40 to 50 m/s do not cover 40 to 84 m/s" in gap
-    assert speed_gaps(answers(speeds=(40.0, 84.0), line_speed=70.0)) == ()
+    assert "only 40 m/s do not cover" in gaps((40.0,), 70.0)[0]
+    assert gaps((40.0, 84.0), 70.0) == ()
     # Undecided is not "no"; and below 120 km/h the clause names no speeds.
-    assert speed_gaps(answers(speeds=short, simple=False, determinant_length=36.0))
-    assert "outside" in speed_gaps(answers(stiffness=2e10, line_speed=30.0))[0]
+    assert gaps(short, simple=False, determinant_length=36.0)
+    assert "outside" in gaps(short, 30.0, stiffness=2e10)[0]
+
+
+def test_where_no_analysis_is_needed_speeds_reach_that_of_the_line():
+    assert gaps((5.0, 44.4)) == ("speeds: 44.4 m/s does not reach the line's 44.44 m/s",)
+    assert gaps((5.0, 160 / 3.6)) == () == gaps((80.0,))
+
+
+def test_a_crossing_near_the_speed_of_the_line_stands_for_it():
+    assert line_gaps((5.0, 95.0), 100.0) == () == line_gaps((101.0,), 100.0)
+    (gap,) = line_gaps((40.0, 94.9, 120.0), 100.0)
+    assert "94.9 m/s is the fastest up to the line's 100 m/s, give one from 95 m/s on" in gap

@@ -79,3 +79,13 @@ def test_first_frequencies_are_those_of_their_direction():
     assert names[own.first_lateral] == "lateral bending 1"
     assert own.n0 == pytest.approx(3.307, abs=1e-3)
     assert structure(beam((20.0,))).first_lateral is None
+
+
+def test_each_of_unlike_spans_in_a_row_has_its_own_first_frequency():
+    own = structure(rb.Beam("row", (20.0, 16.0, 20.0), 1e4, 2e10, continuous=False).deck(9, 0.01))
+    expected = [np.pi / (2 * length**2) * np.sqrt(2e10 / 1e4) for length in (20.0, 16.0, 20.0)]
+    assert [own.n0_of(span) for span in own.spans] == pytest.approx(expected, rel=1e-5)
+    few = structure(rb.Beam("row", (20.0, 8.0), 1e4, 2e10, continuous=False).deck(2, 0.01))
+    assert few.n0_of(few.spans[1]) is None
+    runs = structure(rb.Beam("on", (20.0, 16.0), 1e4, 2e10).deck(6, 0.01))
+    assert [runs.n0_of(span) for span in runs.spans] == [runs.n0] * 2

@@ -78,3 +78,17 @@ def test_speeds_of_a_line_reach_beyond_its_own():
     # A slow line is looked at to 40 m/s, a fast one from there.
     assert rb.checks.usual_speeds(rb.Requirements(line_speed=20.0))[-1] == 40.0
     assert rb.checks.usual_speeds(rb.Requirements(line_speed=110.0))[0] == 40.0
+
+
+def test_an_acceleration_that_is_not_decided_is_told_as_far_as_known():
+    own = SimpleBridge(
+        span=20.0, mass=20000.0, bending_stiffness=5e10, kind="steel", line_speed=50.0, damping=0.03
+    ).case({"name": "ICE2"}).replace({"deck.modes": 3})  # fmt: skip
+    shown = panels.own_bridge(own)
+    found = own.assess(stations=5)
+    row = next(row for row in found.verdicts if row.clause.title == "deck acceleration")
+    assert row.verdict == "cannot decide" and row.value is None
+    known = found.envelope.acceleration_z.max().item()
+    assert f"largest acceleration {known:.2f} m/s2" in shown.summary
+    assert "cannot decide: " in shown.summary and "deck acceleration" in shown.summary
+    shown.close()

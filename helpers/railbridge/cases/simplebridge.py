@@ -35,7 +35,9 @@ _Moment = Annotated[float, Range(above=0.0, most=1e4, unit="m4", remedy="In m4, 
 _Frequency = Annotated[float, Range(above=0.0, most=100.0, unit="Hz")]
 _Tracks = Annotated[int, Range(least=1, most=2, whole=True)]
 _Spacing = Annotated[float, Range(above=0.0, most=20.0, unit="m")]
-_Ratio = Annotated[float, RATIO]
+_Ratio = Annotated[
+    float, Range(above=0.0, most=RATIO.most, remedy="Leave it out for the lower bound of the kind")
+]
 _Twist = Annotated[float, Range(above=0.0, unit="N m2")]
 _Inertia = Annotated[float, Range(above=0.0, unit="kg m")]
 _LEAST_MODES = 6
@@ -105,6 +107,8 @@ class SimpleBridge:
         check_fields(self)
         errors.choice("kind", self.kind, KINDS)
         errors.text("name", self.name)
+        if any("\ud800" <= letter <= "\udfff" for letter in self.name):
+            raise InputError("name", ascii(self.name), "must be a text that files can hold")
         given = tuple(
             name for group in _SAYS_STIFFNESS for name in group if getattr(self, name) is not None
         )
@@ -172,7 +176,10 @@ class SimpleBridge:
         if self.torsional_stiffness is not None:
             deck["torsional_stiffness"] = self.torsional_stiffness
             deck["polar_inertia"] = self.polar_inertia
-        train = {"name": "HSLM-A1"} if train is None else dict(train)
+        train = {"name": "HSLM-A1"} if train is None else train
+        if not isinstance(train, Mapping):
+            raise InputError("train", train, "must be a table of named values")
+        train = dict(train)
         if self.tracks == 2:
             deck["tracks"] = {"left": self.track_spacing / 2, "right": -self.track_spacing / 2}
             train = {"track": "left"} | train
@@ -220,6 +227,8 @@ class SimpleBridge:
         InputError
             A file that is there, a wrong name, or a case that cannot be run; nothing is written.
         """
+        if not isinstance(path, (str, Path)) or "\0" in str(path):
+            raise InputError("path", path, "must be the name of a file")
         path = Path(path)
         if path.suffix != ".toml":
             raise InputError("path", str(path), "must end in .toml")
@@ -279,7 +288,8 @@ def _written(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False)  # TOML's basic strings escape as JSON's do
+        # TOML's basic strings escape as JSON's do, and delete too.
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{key} = {_written(v)}" for key, v in value.items()) + " }"
     if isinstance(value, (list, tuple)):

@@ -14,15 +14,15 @@ from ..crossing import compute
 from ..decks import Deck
 from ..errors import InputError, brief
 from ..results import Crossing
-from ..settings import STATIONS, check
+from ..settings import STATIONS, Options, check
 from ..studies import Between, Row, Store, crossings, row_of_run
 from ..studies.envelopes import Crossings
-from ..tracks import Level, Track
+from ..tracks import Irregularity, Level, Sum, Track
 from ..trains import AnyTrain, AxleTrain
 from .judging import Finding, Point, Points
 from .questions import Questions
 from .requirements import Requirements
-from .rules import coverage, rules, speed_gaps
+from .rules import coverage, line_gaps, rules, speed_gaps
 from .staticloads import StaticLoads
 from .structure import Structure
 from .trainclauses import TrainClauses
@@ -144,7 +144,8 @@ def assess(
     workers, store, progress
         See `studies.speed_envelope`.
     **options
-        As for `cross`, without the speed.
+        As for `cross`, without the speed. Which modes count in deck accelerations says the clause,
+        whatever ``acceleration_modes`` is.
 
     Returns
     -------
@@ -163,8 +164,10 @@ def assess(
     """
     errors.instance("deck", deck, Deck)
     errors.instance("needs", needs, Requirements)
-    if errors.integer("stations", stations, least=5, most=1001) % 4 != 1:
+    stations = errors.integer("stations", stations, least=5, most=1001)
+    if stations % 4 != 1:
         raise InputError("stations", stations, "must be a multiple of 4 and one", "Take 9 or 41")
+    options = _all_modes(options)
     parts = _Parts(Structure(deck, needs), _offset(deck, options), stations)
     asked = parts.questions.asked
     found = crossings(
@@ -172,11 +175,13 @@ def assess(
         workers=workers, store=store, progress=progress, **options,
     )  # fmt: skip
     answers = rules(parts.structure, parts.questions)
-    answers["speeds_covered"] = coverage(answers, found.speeds.tolist())
-    smooth = _smooth(track, found.trains.values())
+    own_speeds, line_speed = found.speeds.tolist(), needs.line_speed
+    answers["speeds_covered"] = coverage(answers, own_speeds)
     clauses = TrainClauses(
-        parts.structure, parts.questions, parts.loads, smooth, speed_gaps(answers)
-    )
+        parts.structure, parts.questions, parts.loads, _smooth(track, found.trains.values()),
+        speed_gaps(answers, own_speeds, line_speed), line_gaps(own_speeds, line_speed),
+        options.get("interaction") == "rigid",
+    )  # fmt: skip
     own = {
         name: [point for point in _points(found) if point.train == name] for name in found.trains
     }
@@ -206,7 +211,7 @@ def usual_speeds(needs: Requirements, count: int | None = None) -> np.ndarray:
         How many, instead of half a metre a second apart.
     """
     top = max(1.2 * needs.line_speed, 40.0)
-    low = min(40.0, top / 3.0)
+    low = min(40.0, top / 3.0, needs.line_speed)
     if count is not None:
         return np.linspace(low, top, errors.integer("speeds", count, least=2, most=10_000))
     return np.linspace(low, top, int(np.ceil((top - low) / _STEP)) + 1)
@@ -231,13 +236,16 @@ def assess_run(run: Crossing, needs: Requirements) -> Verdicts:
     """
     errors.instance("run", run, Crossing)
     errors.instance("needs", needs, Requirements)
+    run = replace(run, settings=replace(run.settings, accelerations_up_to_hz=np.inf))
     parts = _Parts(Structure(run.deck, needs), run.settings.track_offset)
     asked = parts.questions.asked
     name = getattr(run.train, "name", "") or "train"
     cars = not isinstance(run.train, AxleTrain)
     point = Point(name, cars, run.settings.speed, row_of_run(run, asked))
-    smooth = _smooth(run.track, [run.train])
-    clauses = TrainClauses(parts.structure, parts.questions, parts.loads, smooth)
+    clauses = TrainClauses(
+        parts.structure, parts.questions, parts.loads, _smooth(run.track, [run.train]),
+        unfelt=run.settings.interaction != "direct" and run.iteration == 0,
+    )  # fmt: skip
     worst = clauses.findings(Points.of([point], asked))
     findings = [*parts.loads.findings(), *worst]
     return Verdicts([_placed(one, run).verdict for one in findings])
@@ -263,12 +271,28 @@ def _offset(deck: Deck, options: dict[str, Any]) -> float:
     return deck.track_offset(options.get("track_offset", 0.0))
 
 
+def _all_modes(options: dict[str, Any]) -> dict[str, Any]:
+    """Return options with all modes in accelerations: the clause leaves out those that do not."""
+    if "acceleration_modes" not in options:
+        return options
+    Options(speed=1.0, acceleration_modes=options["acceleration_modes"])  # which may refuse
+    return options | {"acceleration_modes": "all"}
+
+
 def _smooth(track: Track | None, trains: Any) -> bool:
-    """Whether rails are level and wheels round: then phi'' speaks for what they are not."""
+    """Whether rails are level and wheels round: then phi'' speaks for what they are not.
+
+    Waves sideways unload no wheel and shake no deck up and down.
+    """
     track = Track() if track is None else track
-    rails = [track.rail(d, side) for d in ("vertical", "lateral") for side in ("left", "right")]
-    level = all(isinstance(rail, Level) for rail in rails)
+    level = all(_flat(track.rail("vertical", side)) for side in ("left", "right"))
     return level and not any(getattr(train, "notches", ()) for train in trains)
+
+
+def _flat(rail: Irregularity) -> bool:
+    if isinstance(rail, Sum):
+        return all(_flat(part) for part in rail.parts)
+    return isinstance(rail, Level) or getattr(rail, "amplitude", None) == 0.0
 
 
 def _points(found: Crossings) -> list[Point]:

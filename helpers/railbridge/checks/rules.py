@@ -10,7 +10,10 @@ from ..codes.clauses import not_above
 from .questions import Questions
 from .structure import Structure
 
-__all__ = ["coverage", "rules", "speed_gaps"]
+__all__ = ["coverage", "line_gaps", "rules", "speed_gaps"]
+
+_NEAR = 0.95
+"""Share of the line's speed from which on a crossing stands for it in the coaches."""
 
 
 def rules(structure: Structure, questions: Questions) -> dict[str, Answer]:
@@ -86,6 +89,8 @@ def coverage(found: dict[str, Answer], speeds: Sequence[float]) -> Answer:
     """
     slowest, fastest = found["slowest_analysis_speed"], found["fastest_analysis_speed"]
     clause, own = slowest.clause, f"{min(speeds):.4g} to {max(speeds):.4g} m/s"
+    if len(speeds) == 1:
+        own = f"only {speeds[0]:.4g} m/s"
     if not slowest.decided:
         return Answer(None, clause, slowest.reason)
     asked = f"{float(slowest):.4g} to {float(fastest):.4g} m/s"
@@ -95,10 +100,27 @@ def coverage(found: dict[str, Answer], speeds: Sequence[float]) -> Answer:
     return Answer(False, clause, f"{own} do not cover {asked}")
 
 
-def speed_gaps(found: dict[str, Answer]) -> tuple[str, ...]:
-    """Return what the speeds leave out of a dynamic analysis, if one is or may be needed."""
+def speed_gaps(
+    found: dict[str, Answer], speeds: Sequence[float], line_speed: float
+) -> tuple[str, ...]:
+    """Return what the speeds leave out: of a dynamic analysis, if one is or may be needed.
+
+    Else of those up to the line's, m/s, which they must reach.
+    """
     need, covered = found["dynamic_analysis_needed"], found["speeds_covered"]
-    spared = need.decided and not bool(need)
-    if spared or (covered.decided and bool(covered)):
+    if covered.decided and bool(covered):
         return ()
+    if need.decided and not bool(need):
+        if not_above(line_speed, max(speeds)):
+            return ()
+        return (f"speeds: {max(speeds):.4g} m/s does not reach the line's {line_speed:.4g} m/s",)
     return (f"speeds: {covered.reason}",)
+
+
+def line_gaps(speeds: Sequence[float], line_speed: float) -> tuple[str, ...]:
+    """Return what is missing where no crossing up to the line's speed (m/s) is near it."""
+    up_to = [speed for speed in speeds if not_above(speed, line_speed)]
+    if not up_to or not_above(_NEAR * line_speed, max(up_to)):
+        return ()
+    most = f"{max(up_to):.4g} m/s is the fastest up to the line's {line_speed:.4g} m/s"
+    return (f"speeds: {most}, give one from {_NEAR * line_speed:.4g} m/s on",)

@@ -16,6 +16,8 @@ __all__ = ["Span", "Structure"]
 
 _PIER = 0.1
 """Share of the longest span below which a distance of bearing lines is a pier's, not a span."""
+_OWN = 0.5
+"""Share of a mode's largest displacement that a span has from which on the mode is its own."""
 _HINGE = 1e-6
 """Share of a length below which the moment over a bearing is rounding, m."""
 _PLACES = 401
@@ -158,3 +160,21 @@ class Structure:
         """First frequency of vertical bending, Hz; of the mass that the deck has."""
         mode = self.first_vertical
         return None if mode is None else float(self.deck.frequencies_hz[mode])
+
+    def n0_of(self, span: Span) -> float | None:
+        """First frequency of vertical bending of a span, Hz.
+
+        Of simple spans in a row each has its own, None where the deck's modes leave it out; else
+        it is that of the deck.
+        """
+        single = len(self.spans) < 2 or self.continuous is not False
+        if single or self.needs.determinant_length is not None:
+            return self.n0
+        deck = self.deck
+        vertical = np.flatnonzero(self._directions == 1)
+        whole, own = (
+            np.abs(deck.shapes(np.linspace(*ends, _PLACES))[:, vertical, 1]).max(axis=0)
+            for ends in ((0.0, deck.length), (span.start, span.end))
+        )
+        found = deck.frequencies_hz[vertical[own >= _OWN * whole]]
+        return float(found.min()) if len(found) else None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from .. import codes
 from ..codes import Answer
 from ..codes.clauses import not_above
 from ..errors import counted
+from ..notices import ends_move
 from ..studies import Output
 from .judging import Finding, Point, Points, finding
 from .questions import Questions
@@ -23,6 +24,11 @@ _NO_CROSSING = "no crossing was computed"
 _SIDEWAYS = "rigid sideways in this model: give the deck a lateral bending stiffness"
 _OTHER_LOADS = "of the trains' own forces only: wind, nosing and centrifugal forces are not in it"
 _PERFECT = "on a perfect track: give its irregularity"
+_MOVING_END = (
+    "an end of the deck moves and wheels step on or off there, which shakes it more than a real "
+    "one: give the deck a rail on a bed"
+)
+_UNFELT = "the cars do not feel the deck (interaction = 'rigid')"
 _STRAIGHT = 1e-9
 """1/m: a deck bent less has a radius of no interest."""
 
@@ -41,6 +47,10 @@ class TrainClauses:
         Whether the track is level and the wheels are round.
     gaps : tuple of str
         What the speeds leave out of a dynamic analysis.
+    slow : tuple of str
+        What they leave out below the speed of the line.
+    unfelt : bool
+        Whether the cars run as on a rigid deck.
     """
 
     structure: Structure
@@ -48,6 +58,8 @@ class TrainClauses:
     loads: StaticLoads
     smooth: bool = True
     gaps: tuple[str, ...] = ()
+    slow: tuple[str, ...] = ()
+    unfelt: bool = False
 
     def findings(self, points: Points) -> list[Finding]:
         """Return a verdict for each clause, the worst of some crossings."""
@@ -74,6 +86,12 @@ class TrainClauses:
         if not len(points):
             return finding(None, limit, gaps, reason=_NO_CROSSING)
         value, output, point = self._largest(points, self.questions.accelerations)
+        if ends_move(self.structure.deck):
+            words = "; ".join(
+                [f"{value:.4g} m/s2 as computed", _MOVING_END, *filter(None, [reason])]
+            )
+            found = finding(None, limit, gaps, point=point, where=output.x, reason=words)
+            return replace(found, value=value)
         return finding(value, limit, gaps, point=point, where=output.x, reason=reason)
 
     def moment(self, points: Points) -> Finding:
@@ -114,11 +132,11 @@ class TrainClauses:
 
     def _track_factor(self, span: Span, speed: float) -> Answer:
         """Return 1 + phi''/2 of a span."""
-        length, n0 = self.structure.length_of(span), self.structure.n0
+        length, n0 = self.structure.length_of(span), self.structure.n0_of(span)
         if not length.decided:
             return Answer(None, codes.track_factor.clause, length.reason)
         if n0 is None:
-            reason = "the deck has no mode of vertical bending"
+            reason = f"the deck has no mode of vertical bending of span {span.number}"
             return Answer(None, codes.track_factor.clause, reason)
         return codes.track_factor(float(length), n0, speed)
 
@@ -191,7 +209,7 @@ class TrainClauses:
         limit = codes.comfort_limit(needs.comfort)
         slow = points.only([not_above(p.speed, needs.line_speed) for p in points.points])
         reason = "up to the speed of the line" + ", on a perfect track" * self.smooth
-        return self._of_cars(slow, "body_acceleration_z", limit, reason)
+        return self._of_cars(slow, "body_acceleration_z", limit, reason, self.slow)
 
     def unloading(self, points: Points) -> Finding:
         """Judge by which share of its static load a wheel is unloaded.
@@ -206,6 +224,8 @@ class TrainClauses:
         self, points: Points, name: str, limit: Answer, reason: str, more: Sequence[str] = ()
     ) -> Finding:
         gaps = [*self._gaps(points), *more]
+        if self.unfelt and any(point.cars for point in points.points):
+            gaps.append(_UNFELT)
         bare = list(dict.fromkeys(point.train for point in points.points if not point.cars))
         if bare:
             gaps.append(f"{counted(bare, 4)}: only axle loads, no cars")

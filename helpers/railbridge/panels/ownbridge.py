@@ -39,7 +39,7 @@ def own_bridge(case: Case | None = None) -> Panel:
     ).case() if case is None else case  # fmt: skip
 
     def draw(axes: Any, case: Case, found: Any, values: Values) -> None:
-        limit = _acceleration(found).limit
+        limit = _limit_of(found)
         plots.envelope(
             found.envelope, "acceleration_z", x=found.deck.length / 2, ax=axes["acceleration"],
             limit=limit,
@@ -47,7 +47,8 @@ def own_bridge(case: Case | None = None) -> Panel:
         plots.utilisation(found.verdicts, axes["verdicts"])
 
     def say(case: Case, found: Any, values: Values) -> str:
-        worst = _acceleration(found)
+        # What is not decided has no value in its verdict, but is known all the same.
+        largest = found.per_train().xs(_LIMIT, level="what").value.max()
         f1 = found.deck.frequencies_hz[0]
         kmh = 3.6 * values["line_speed"]
         failed = [row.clause.title for row in found.verdicts if row.verdict == "not met"]
@@ -57,8 +58,8 @@ def own_bridge(case: Case | None = None) -> Panel:
             f"{values['span']:.1f} m, {values['mass'] / 1e3:.1f} t/m, "
             f"E I = {values['stiffness'] / 1e9:.1f} GN m2, damping "
             f"{100 * values['damping']:.2f} %: first frequency {f1:.2f} Hz. {values['train']} on a "
-            f"line for {kmh:.0f} km/h: largest acceleration {worst.value:.2f} m/s2, limit "
-            f"{worst.limit:.1f}. {told} of {len(found.verdicts)}."
+            f"line for {kmh:.0f} km/h: largest acceleration {largest:.2f} m/s2, limit "
+            f"{_limit_of(found):.1f}. {told} of {len(found.verdicts)}."
         )
 
     listed = dict.fromkeys((base.get("train.name"), *TRAINS))
@@ -85,7 +86,7 @@ def own_bridge(case: Case | None = None) -> Panel:
         code=f"found = case.assess(stations={STATIONS})\n"
         'rb.plots.envelope(found.envelope, "acceleration_z", limit=3.5)\n'
         "rb.plots.utilisation(found.verdicts)\n"
-        f'[v.value for v in found.verdicts if v.clause.title == "{_LIMIT}"][0]  # m/s2',
+        f'found.per_train().xs("{_LIMIT}", level="what").value.max()  # m/s2',
         size=(9.0, 6.0),
         heights=(1.0, 1.1),
         start_name="at the start",
@@ -110,5 +111,5 @@ def _none(case: Case, found: Any) -> Sequence[Remark]:
     return ()
 
 
-def _acceleration(found: Any) -> Any:
-    return next(row for row in found.verdicts if row.clause.title == _LIMIT)
+def _limit_of(found: Any) -> float:
+    return next(row.limit for row in found.verdicts if row.clause.title == _LIMIT)

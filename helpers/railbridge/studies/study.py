@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..errors import InputError
 from .chunks import completed, split
 from .engine import Row
 from .store import MemoryStore, Store
@@ -88,6 +89,13 @@ def carry_out(
     -------
     list of Row, or of a text where a point was refused
     """
+    if not isinstance(store, (Store, MemoryStore)):
+        raise InputError(
+            "store", store, "must be a Store", "Make one with railbridge.studies.Store"
+        )
+    if progress is not None and not callable(progress):
+        allowed = "must be a function of two numbers, done and of how many"
+        raise InputError("progress", progress, allowed)
     left = remaining(points, store)
     chunks = chunked(left, chunk)
     known = len({point.key for point in points if not point.refusal}) - len(left)
