@@ -20,7 +20,7 @@ def names_of(lines):
 
 def test_keys_stand_under_the_unit_that_their_type_checks():
     found = names_of(unitpages.key_rows())
-    assert found["m/s"] == ["speed"] and found["1/s"] == ["alpha"]
+    assert found["m/s"] == ["speed", "line_speed"] and found["1/s"] == ["alpha"]
     assert {"beta", "time_step"} <= set(found["s"]) and "tracks" in found["m"]
     # Names that mean different things are told with their tables.
     assert found["kg"].count("mass") == found["kg/m"].count("mass") == 1
@@ -79,7 +79,7 @@ def test_units_of_results_are_those_that_a_run_says():
     }.items():
         assert {n: u for n, u in history.units.items() if n in told[where]} == told[where], where
     here = {**run.displacement(x=18.0).units, **run.section_forces(x=18.0).units}
-    here |= run.acceleration(x=18.0).units
+    here |= {**run.acceleration(x=18.0).units, **run.rotations(x=18.0).units}
     assert {name: here[name] for name in told["at a point of the deck"]} == told[
         "at a point of the deck"
     ]

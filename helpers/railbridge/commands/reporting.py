@@ -8,7 +8,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .. import errors, reports, studies
+from .. import errors, studies
 from ..cases import shelf, staging
 from ..cases.definition import Case
 from ..cases.sweeping import Plan
@@ -75,6 +75,9 @@ def add_command(add: Callable[..., argparse.ArgumentParser], case: argparse.Argu
 
 
 def _report(given: argparse.Namespace) -> int:
+    # Loads matplotlib, which no other command waits for.
+    from .. import reports
+
     reports.needed("jinja2", *["openpyxl"] * (given.excel is not None))
     # Before anything is computed, and once more when it is written.
     reports.refuse_foreign("--out", given.out, ".html", given.force)
@@ -125,6 +128,8 @@ def _refuse(given: argparse.Namespace, why: str, *names: str) -> None:
 
 
 def _of_run(given: argparse.Namespace, loaded: Case) -> int:
+    from .. import reports
+
     doubts = changing.said_doubts(loaded, given.strict)
     if doubts and given.strict:
         return 2
@@ -147,6 +152,8 @@ def _of_run(given: argparse.Namespace, loaded: Case) -> int:
 
 
 def _over_speeds(given: argparse.Namespace, loaded: Case | None) -> int:
+    from .. import reports
+
     if loaded is not None:
         doubts = changing.said_doubts(loaded, given.strict)
         if doubts and given.strict:
@@ -168,6 +175,8 @@ def _over_speeds(given: argparse.Namespace, loaded: Case | None) -> int:
 
 
 def _of_study(given: argparse.Namespace) -> int:
+    from .. import reports
+
     plan, content = studying.study_plan(given.case)
     asking = studying.Asking("sweep", Path(given.case).stem)
     if not _sure(given, plan, asking):
