@@ -134,7 +134,7 @@ def assess(
     speeds : sequence of float, or Between
         m/s; see `studies.speed_envelope`. A dynamic analysis asks for 40 m/s to 1.2 times the
         line's speed; where one is or may be needed and they do not cover that, what is met is not
-        decided.
+        decided. Where none is needed they must reach the line's speed.
     needs : Requirements
     track : Track, optional
         Level if not given.
