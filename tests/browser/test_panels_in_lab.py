@@ -279,6 +279,27 @@ def test_two_panels_on_a_page_keep_their_own_layout(visited, notebook, panel, st
         visited.page.set_viewport_size(WINDOW)
 
 
+@of("11_your_own_bridge")
+def test_the_form_writes_a_case_and_never_over_a_file(visited, notebook, panel):
+    form = visited.page.locator(".rb-form")
+    form.scroll_into_view_if_needed()
+    span = form.get_by_label("span (m)")
+    span.fill("2,5")
+    span.press("Enter")
+    form.get_by_role("alert").get_by_text("with a point: 2.5").wait_for()
+    span.fill("25")
+    span.press("Enter")
+    # pi / (2 L^2) sqrt(E I / m) of 25 m, 12 t/m, 30 GN m2
+    form.get_by_text("first frequency 3.974 Hz").wait_for()
+    write = form.get_by_role("button", name="Write the case file")
+    write.click()
+    form.get_by_text("my_bridge.toml is written").wait_for()
+    write.click()
+    form.get_by_role("alert").get_by_text("is there already").wait_for()
+    assert nameless(form) == []
+    assert notebook.complaints() == visited.complaints() == []
+
+
 @of("00_start_here")
 def test_the_train_runs_by_itself(visited, notebook, panel, start):
     panel.try_player(panel.restored(start))

@@ -210,7 +210,7 @@ class Case:
             remedy = "Give it, with line_speed at least: see docs/case.md"
             raise InputError("checks", None, "is missing, and says what is asked of", remedy)
         trains = {self._train_in_words: self.train} if trains is None else trains
-        if speeds is None or isinstance(speeds, int):
+        if speeds is None or isinstance(speeds, (int, np.integer)):
             speeds = usual_speeds(needs, speeds)
         options = {key: value for key, value in self.options.items() if key != "speed"}
         with within(names=IN_A_CASE):

@@ -32,7 +32,7 @@ _Modulus = Annotated[
     float, Range(least=1e9, most=4e11, unit="Pa", remedy="Steel has 210e9, concrete about 35e9")
 ]
 _Moment = Annotated[float, Range(above=0.0, most=1e4, unit="m4", remedy="In m4, not cm4")]
-_Frequency = Annotated[float, Range(above=0.0, most=100.0, unit="Hz")]
+_Frequency = Annotated[float, Range(least=0.1, most=100.0, unit="Hz")]
 _Tracks = Annotated[int, Range(least=1, most=2, whole=True)]
 _Spacing = Annotated[float, Range(above=0.0, most=20.0, unit="m")]
 _Ratio = Annotated[

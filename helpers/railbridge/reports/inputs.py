@@ -6,6 +6,8 @@ from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from .. import exchange
 from ..cases import shelf, tables
 from ..cases.tabletypes import Table as FileTable
@@ -231,8 +233,11 @@ def _springs(vehicle: Vehicle, number: int, on_page: bool) -> Table:
     return Table.of(f"springs {number}", title, heads, rows, note=note, on_page=on_page)
 
 
-def modes_table(deck: Deck) -> Table:
-    """Return frequency, damping and name of each mode, and which a code keeps in accelerations."""
+def modes_table(deck: Deck, up_to_hz: float = np.inf) -> Table:
+    """Return frequency, damping and name of each mode, and which a code keeps in accelerations.
+
+    The accelerations of the report are those of the modes up to a frequency, Hz.
+    """
     kept = kept_modes(deck.frequencies_hz.tolist())
     limit = kept.limit
     rows = [
@@ -249,8 +254,8 @@ def modes_table(deck: Deck) -> Table:
     if limit.decided:
         note = f"Modes up to {float(limit):.4g} Hz are kept for accelerations by {source}"
         note += "" if kept.complete else "; there may be more of them than the deck has here"
-        note += ". Accelerations in this report hold all modes of the table, unless a verdict says "
-        note += "otherwise."
+        held = "all modes of the table" if np.isinf(up_to_hz) else f"those up to {up_to_hz:.4g} Hz"
+        note += f". Accelerations in this report hold {held}, unless a verdict says otherwise."
     else:
         note = f"Which modes are kept for accelerations by {source}: cannot decide, {limit.reason}."
     heads = ["mode", ("frequency", "Hz"), Column("damping", "% of critical", 3), "name",

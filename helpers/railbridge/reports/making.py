@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from .. import errors
 from ..cases.definition import Case
 from ..checks import Assessment
@@ -149,7 +151,7 @@ def report_of_run(
         _in_short(key, remarks, trouble),
         verdicts_section(verdicts, rules),
         _inputs(case, {"": case.train}),
-        _modes(case.deck),
+        _modes(case.deck, case.settings.accelerations_up_to_hz),
         Section("Results", (
             *tables_of_summary(summary), *of_run(run, case.points.tolist()),
         )),
@@ -218,7 +220,7 @@ def report_of_envelope(
         _in_short(key, [*doubts, *_quiet(case)], "", failures(found)),
         verdicts_section(verdicts, rules, assessment),
         _inputs(case, trains, speeds=speeds, own_train=False),
-        _modes(case.deck),
+        _modes(case.deck, case.settings.accelerations_up_to_hz),
         Section("Results", (*peaks(found), *pictures(found, case.deck), whole(found))),
         _assumed(case, next(iter(trains.values()))),
         Section("Receipt", (
@@ -312,7 +314,7 @@ def report_of_study(
         _in_short(None, [*doubts, *_quiet(case)], "", [*failures(found), *short]),
         verdicts_section(None),
         _inputs(case, trains or {"": case.train}, own_train=not trains),
-        _modes(case.deck),
+        _modes(case.deck, case.settings.accelerations_up_to_hz),
         Section("Results", (*rest, whole(found))),
         _assumed(case, case.train),
         Section("Receipt", (
@@ -419,8 +421,8 @@ def _trains(trains: Mapping[str, AnyTrain]) -> Table:
                     rows, note="Length: first to last axle.")  # fmt: skip
 
 
-def _modes(deck: Deck) -> Section:
-    return Section("Modes of the deck", (modes_table(deck), modes(deck)))
+def _modes(deck: Deck, up_to_hz: float = np.inf) -> Section:
+    return Section("Modes of the deck", (modes_table(deck, up_to_hz), modes(deck)))
 
 
 def _assumed(case: Case, train: AnyTrain) -> Section:

@@ -63,6 +63,7 @@ def named_trains(trains: Any) -> dict[str, AnyTrain]:
     if not trains:
         raise InputError("trains", trains, "must hold at least one train")
     for name, train in trains.items():
+        errors.text("name of a train", name)
         if not isinstance(train, AnyTrain):
             raise InputError(f"trains[{name}]", train, "must be a Train or an AxleTrain")
     return dict(trains)
