@@ -22,7 +22,7 @@ def test_the_summary_is_that_of_the_code(panel):
     lines = panel.code.replace("rb.plots.", "0 and rb.plots.").splitlines()
     exec("\n".join(lines[:-1]), names)
     value = eval(lines[-1], names)
-    assert f"largest acceleration {value:.2f} m/s2, limit 3.5" in panel.summary
+    assert f"largest acceleration {value:.2f} m/s2 (not met), limit 3.5" in panel.summary
     assert "Not met: deck acceleration; not decided: " in panel.summary
 
 
@@ -89,6 +89,5 @@ def test_an_acceleration_that_is_not_decided_is_told_as_far_as_known():
     row = next(row for row in found.verdicts if row.clause.title == "deck acceleration")
     assert row.verdict == "cannot decide" and row.value is None
     known = found.envelope.acceleration_z.max().item()
-    assert f"largest acceleration {known:.2f} m/s2" in shown.summary
-    assert "cannot decide: " in shown.summary and "deck acceleration" in shown.summary
+    assert f"largest acceleration {known:.2f} m/s2 (cannot decide), limit 3.5" in shown.summary
     shown.close()

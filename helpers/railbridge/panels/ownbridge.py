@@ -41,7 +41,7 @@ def own_bridge(case: Case | None = None) -> Panel:
     ).case().replace({"deck.modes": _MODES}) if case is None else case  # fmt: skip
 
     def draw(axes: Any, case: Case, found: Any, values: Values) -> None:
-        limit = _limit_of(found)
+        limit = _shaken(found).limit
         plots.envelope(
             found.envelope, "acceleration_z", x=found.deck.length / 2, ax=axes["acceleration"],
             limit=limit,
@@ -60,8 +60,8 @@ def own_bridge(case: Case | None = None) -> Panel:
             f"{values['span']:.1f} m, {values['mass'] / 1e3:.1f} t/m, "
             f"E I = {values['stiffness'] / 1e9:.1f} GN m2, damping "
             f"{100 * values['damping']:.2f} %: first frequency {f1:.2f} Hz. {values['train']} on a "
-            f"line for {kmh:.0f} km/h: largest acceleration {largest:.2f} m/s2, limit "
-            f"{_limit_of(found):.1f}. {told} of {len(found.verdicts)}."
+            f"line for {kmh:.0f} km/h: largest acceleration {largest:.2f} m/s2 "
+            f"({_shaken(found).verdict}), limit {_shaken(found).limit:.1f}. {told} of {len(found.verdicts)}."
         )
 
     listed = dict.fromkeys((base.get("train.name"), *TRAINS))
@@ -113,5 +113,6 @@ def _none(case: Case, found: Any) -> Sequence[Remark]:
     return ()
 
 
-def _limit_of(found: Any) -> float:
-    return next(row.limit for row in found.verdicts if row.clause.title == _LIMIT)
+def _shaken(found: Any) -> Any:
+    """Return the verdict on the deck's acceleration."""
+    return next(row for row in found.verdicts if row.clause.title == _LIMIT)
