@@ -61,7 +61,8 @@ def own_bridge(case: Case | None = None) -> Panel:
             f"E I = {values['stiffness'] / 1e9:.1f} GN m2, damping "
             f"{100 * values['damping']:.2f} %: first frequency {f1:.2f} Hz. {values['train']} on a "
             f"line for {kmh:.0f} km/h: largest acceleration {largest:.2f} m/s2 "
-            f"({_shaken(found).verdict}), limit {_shaken(found).limit:.1f}. {told} of {len(found.verdicts)}."
+            f"({_shaken(found).verdict}), limit {_shaken(found).limit:.1f}. {told} of "
+            f"{len(found.verdicts)}."
         )
 
     listed = dict.fromkeys((base.get("train.name"), *TRAINS))
