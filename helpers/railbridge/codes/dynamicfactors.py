@@ -310,7 +310,7 @@ def dynamic_effect(static: float, phi_dyn: float, track: Answer) -> Answer:
     static : float
         N m, of the train that stands where it is worst.
     phi_dyn : float
-        phi'_dyn = max |y_dyn / y_stat| - 1, of a dynamic analysis.
+        phi'_dyn of a dynamic analysis: the largest magnitude of y_dyn over that of y_stat, less 1.
     track : Answer
         1 + phi''/2; see `track_factor`.
 
