@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-
-from ..errors import InputError
+from .. import studies
 
 __all__ = ["needed"]
 
 
 def needed(*names: str) -> None:
-    """Refuse to begin what would end without one of these packages.
+    """Refuse to begin what would end without one of these packages; see `studies.needed`.
 
     Raises
     ------
     InputError
         One of them is not installed.
     """
-    for name in names:
-        try:
-            import_module(name)
-        except ImportError:
-            remedy = 'Run: pip install "railbridge[report]"'
-            raise InputError("report", None, f"the package {name} is missing", remedy) from None
+    studies.needed(*names, extra="report")

@@ -1,4 +1,4 @@
-"""Packages of the extra `study`, missed in words where they are first needed; our own version."""
+"""Packages of an extra, missed in words where they are first needed; our own version."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from ..errors import InputError
 __all__ = ["needed", "program_version"]
 
 
-def needed(*names: str) -> None:
-    """Refuse to begin what would end without one of these packages.
+def needed(*names: str, extra: str = "study") -> None:
+    """Refuse to begin what would end without one of these packages of an extra.
 
     Raises
     ------
@@ -22,8 +22,8 @@ def needed(*names: str) -> None:
         try:
             import_module(name)
         except ImportError:
-            remedy = 'Run: pip install "railbridge[study]"'
-            raise InputError("study", None, f"the package {name} is missing", remedy) from None
+            remedy = f'Run: pip install "railbridge[{extra}]"'
+            raise InputError(extra, None, f"the package {name} is missing", remedy) from None
 
 
 def program_version() -> str:
