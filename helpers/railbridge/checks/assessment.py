@@ -176,7 +176,7 @@ def assess(
     )  # fmt: skip
     answers = rules(parts.structure, parts.questions)
     own_speeds, line_speed = found.speeds.tolist(), needs.line_speed
-    answers["speeds_covered"] = coverage(answers, own_speeds)
+    answers["speeds_covered"] = coverage(answers, own_speeds, isinstance(speeds, Between))
     clauses = TrainClauses(
         parts.structure, parts.questions, parts.loads, _smooth(track, found.trains.values()),
         speed_gaps(answers, own_speeds, line_speed), line_gaps(own_speeds, line_speed),

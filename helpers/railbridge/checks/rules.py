@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from .. import codes
 from ..codes import Answer, Clause
 from ..codes.clauses import not_above
 from .questions import Questions
 from .structure import Structure
 
-__all__ = ["coverage", "line_gaps", "rules", "speed_gaps"]
+__all__ = ["COARSEST", "coverage", "line_gaps", "rules", "speed_gaps"]
+
+COARSEST = 5.0
+"""m/s between speeds; our own bound, for codes say only that they must be finer at resonance."""
 
 _NEAR = 0.95
 """Share of the line's speed from which on a crossing stands for it in the coaches."""
@@ -77,8 +82,11 @@ def _within(lower: Answer, upper: Answer, n0: float | None, missing: str, clause
     return Answer(inside, clause, f"n0 = {n0:.4g} Hz")
 
 
-def coverage(found: dict[str, Answer], speeds: Sequence[float]) -> Answer:
+def coverage(found: dict[str, Answer], speeds: Sequence[float], chosen: bool = False) -> Answer:
     """Return whether speeds cover a dynamic analysis: 40 m/s to 1.2 times the line's.
+
+    In steps of at most `COARSEST`, where they were not chosen finer beside peaks. That a peak lies
+    between two of them is not said by that: it may be narrower.
 
     Parameters
     ----------
@@ -86,6 +94,8 @@ def coverage(found: dict[str, Answer], speeds: Sequence[float]) -> Answer:
         See `rules`.
     speeds : sequence of float
         m/s.
+    chosen : bool
+        Whether they are those of `studies.Between`.
     """
     slowest, fastest = found["slowest_analysis_speed"], found["fastest_analysis_speed"]
     clause, own = slowest.clause, f"{min(speeds):.4g} to {max(speeds):.4g} m/s"
@@ -96,6 +106,10 @@ def coverage(found: dict[str, Answer], speeds: Sequence[float]) -> Answer:
     asked = f"{float(slowest):.4g} to {float(fastest):.4g} m/s"
     low = not_above(min(speeds), float(slowest))
     if low and not_above(float(fastest), max(speeds)):
+        step = float(np.diff(np.sort(speeds)).max(initial=0.0))
+        if not chosen and not not_above(step, COARSEST):
+            reason = f"{own} in steps of up to {step:.3g} m/s pass over resonances"
+            return Answer(False, clause, f"{reason}; at most {COARSEST:g} m/s, or Between")
         return Answer(True, clause, f"{len(speeds)} speeds, {own}, where {asked} are asked for")
     return Answer(False, clause, f"{own} do not cover {asked}")
 
