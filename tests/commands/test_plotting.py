@@ -14,27 +14,7 @@ import railbridge as rb
 from railbridge.commands import command as cli
 from railbridge.plots import gallery
 
-CASE = """
-[deck]
-length = 12.0
-bending_stiffness_vertical = 5e9
-mass = 8000.0
-damping = { modal = 0.02 }
-modes = 3
-elements = 12
-[train]
-vehicle = "xia2000_planar"
-[track]
-vertical = { kind = "harmonic", amplitude = 1e-3, wavelength = 10.0 }
-[run]
-speed = 40.0
-time_step = 4e-3
-lead_in = 0.0
-tail = 0.1
-tolerance = 1e-3
-[output]
-points = [6.0]
-"""
+CASE = (Path(__file__).parents[1] / "quick_case.toml").read_text(encoding="utf-8")
 NAMES = {
     "train", "displacement_at_6m", "acceleration_at_6m", "section_forces_at_6m", "envelope",
     "reactions", "wheels_1", "cars_1", "spectrum", "iterations", "convergence",

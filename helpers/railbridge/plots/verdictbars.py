@@ -11,14 +11,15 @@ from ..errors import InputError, instance
 from .drawing import axes_or_new, curve, label_axes, note
 from .style import GREY, literal
 
-__all__ = ["utilisation"]
+__all__ = ["LONG", "SHOWN", "utilisation"]
 
 _COLOURS = {"met": "#009E73", "not met": "#D55E00", "cannot decide": GREY}
 _END = 2.0
 """Where bars are cut: what is used twice over is not met, however much more it is."""
-_SHOWN = {"m": ("mm", 1e3), "rad": ("mrad", 1e3), "N": ("kN", 1e-3), "N m": ("kN m", 1e-3)}
-_LONG = 1.0
-"""m, from which on lengths are shown as they are."""
+SHOWN = {"m": ("mm", 1e3), "rad": ("mrad", 1e3), "N": ("kN", 1e-3), "N m": ("kN m", 1e-3)}
+"""In which units values and limits are shown, and the factor from SI."""
+LONG = 1.0
+"""m, from which on lengths are shown as they are: a radius is no deflection."""
 _ROW = 0.3
 """Inches of a row in a figure of its own."""
 
@@ -66,8 +67,8 @@ def _in_words(row: Verdict) -> str:
     """Return verdict, value and limit in a few words."""
     if row.verdict == "cannot decide":
         return row.verdict
-    unit, factor = _SHOWN.get(row.clause.unit, (row.clause.unit, 1.0))
-    if unit == "mm" and row.limit >= _LONG:
+    unit, factor = SHOWN.get(row.clause.unit, (row.clause.unit, 1.0))
+    if unit == "mm" and row.limit >= LONG:
         unit, factor = "m", 1.0
     value, limit = (f"{factor * number:.4g}" for number in (row.value, row.limit))
     return literal(f"{row.verdict}: {value}, {row.clause.sense} {limit} {unit}".rstrip())

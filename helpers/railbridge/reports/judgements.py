@@ -12,6 +12,7 @@ from ..cases.definition import Case
 from ..cases.tabletypes import meanings
 from ..checks import Assessment, Requirements, assess_run
 from ..codes import Answer, Verdict, Verdicts
+from ..plots.verdictbars import LONG, SHOWN
 from ..results import Crossing
 from ..trains import AnyTrain
 from .parts import Column, Picture, Section, Table, Words, exact, in_km_h, shown, sized
@@ -19,13 +20,8 @@ from .pictures import verdict_bars
 
 __all__ = ["judged_over_speeds", "judged_run", "requirements_table", "verdicts_section"]
 
-_UNITS = {
-    "m": ("mm", 1e3), "N": ("kN", 1e-3), "N m": ("kN m", 1e-3), "rad": ("mrad", 1e3),
-    "m/s2": ("m/s²", 1.0),
-}  # fmt: skip
+_UNITS = {**SHOWN, "m/s2": ("m/s²", 1.0)}
 """In which units a limit is shown."""
-_RADII = 100.0
-"""m from which on a length stays in m: a radius is no deflection."""
 _HOW_TO_ASK = (
     "No limits of a code were asked for, so this report gives no verdicts. To have the results "
     "judged, add a table [checks] to the case file, with line_speed in m/s and, where they differ "
@@ -130,7 +126,7 @@ def _numbers(verdicts: Verdicts) -> Table:
 
 def _unit(v: Verdict) -> tuple[str, float]:
     """Return in which unit a limit and its value are shown, and the factor to it from SI."""
-    if v.clause.unit == "m" and v.limit is not None and v.limit >= _RADII:
+    if v.clause.unit == "m" and v.limit is not None and v.limit >= LONG:
         return "m", 1.0
     return _UNITS.get(v.clause.unit, (v.clause.unit, 1.0))
 
