@@ -20,10 +20,10 @@ from scipy.integrate import solve_ivp
 import railbridge as rb
 from planar import opensees, problems
 from railbridge.coupling import prepare
-from railbridge.direct import has_compiler
-from railbridge.plans import plan
-from railbridge.stepping import march
-from railbridge.windows import in_windows
+from railbridge.direct.plans import plan
+from railbridge.direct.solution import has_compiler
+from railbridge.direct.stepping import march
+from railbridge.direct.windows import in_windows
 
 PEAK = """
 import pathlib, resource, sys
@@ -182,7 +182,7 @@ def wheelsets(unit):
         f"\neight cars on wheelsets, {steps.samples} samples: the loop in NumPy {numpy / unit:.2f}"
     )
     if has_compiler():
-        from railbridge import compiled
+        from railbridge.direct import compiled
 
         compiled.march(steps)
         fast = best(compiled.march, steps)

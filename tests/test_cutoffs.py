@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import railbridge as rb
-from railbridge import notices
+from railbridge.cautions import notices
 from railbridge.cutoffs import counted, different, en1990_limit
 from railbridge.errors import ResultWarning
 from railbridge.settings import check

@@ -21,18 +21,16 @@ asked for.
 from importlib import import_module as _import_module
 
 from .beams import Beam, Bearing, Pier, PointMass
+from .cautions import remarks
+from .contacts import Rail, with_wheelsets
 from .crossing import NotConvergedError, cross
 from .decks import Deck, History, ModalDamping, rayleigh, rayleigh_ratio
 from .errors import InputError, InputWarning, ResultWarning
-from .notices import remarks
-from .rails import Rail
 from .results import Crossing
-from .shapes import Dip, Joint, Weld
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .tracks import FadeIn, Harmonic, Level, Notch, Rails, Table, Track
 from .trains import CONDENSED, AxleTrain, Passage, Train, steady_forces
 from .vehicles import AntiRollBar, Body, Spring, Vehicle
-from .wheelsets import with_wheelsets
 
 __version__ = "0.1.0"
 
@@ -45,7 +43,10 @@ _ROOMS = {
     ),
     "checks": ("Assessment", "Requirements", "assess", "assess_run"),
     "codes": ("LoadModel", "hslm_b", "load_model"),
-    "irregularities": ("RandomTrack", "TrackRecord", "TrackSpectrum", "export_track", "spectrum"),
+    "irregularities": (
+        "Dip", "Joint", "RandomTrack", "TrackRecord", "TrackSpectrum", "Weld", "export_track",
+        "spectrum",
+    ),
     "lessons": ("check",),
     "studies": ("Ensemble", "RandomResponse", "random_response"),
     "validation": ("compared",),

@@ -8,16 +8,15 @@ from collections.abc import Callable, Iterable
 from dataclasses import fields
 from typing import get_type_hints
 
+from .cautions import remarks
 from .coupling import Coupling, grows, iterate, prepare
 from .decks import Deck
-from .direct import solve_directly
+from .direct import in_windows, solve_directly
 from .errors import InputError, Remark
-from .notices import remarks
 from .results import Crossing
 from .settings import Options, Settings, check
 from .tracks import Track
 from .trains import AnyTrain
-from .windows import in_windows
 
 __all__ = ["NotConvergedError", "compute", "cross", "warn_of"]
 

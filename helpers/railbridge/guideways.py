@@ -16,8 +16,8 @@ import numpy as np
 from numpy.lib.stride_tricks import as_strided
 
 from . import errors
+from .contacts import Rail
 from .errors import InputError, brief
-from .rails import Rail
 
 __all__ = ["COMPONENTS", "Guideway", "PiecewiseCubic", "Stations"]
 

@@ -22,7 +22,7 @@ from .decks import (
     History,
     Line,
 )
-from .direct import on_rigid_deck
+from .direct import Windows, on_rigid_deck
 from .errors import InputError, brief, frozen
 from .percar import PerCar, of_car
 from .settings import STATIONS, Settings
@@ -30,7 +30,6 @@ from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .statics import MovingLoads, static_extremes
 from .tracks import Track
 from .trains import CONDENSED, AnyTrain, Car
-from .windows import Windows
 
 __all__ = ["ENVELOPE", "Crossing", "Deviations", "Envelope"]
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 import railbridge as rb
-from railbridge.notices import remarks_before
+from railbridge.cautions.notices import remarks_before
 from railbridge.settings import check
 
 L, M, EI, EA, EIZ = 30.0, 12e3, 8.93e10, 1.7e11, 8.9e11

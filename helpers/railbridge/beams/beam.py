@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from .. import errors
+from ..contacts import Rail
 from ..decks import Damping, Deck, checked_damping, cut_group, damping_ratios, viscosity
 from ..errors import InputError, Remark, brief
-from ..rails import Rail
 from .influence import BeamRecovery
 from .mesh import DENSE, BeamModes, Mesh
 from .properties import BeamProperties, span_ends

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from ..bounds import BOUNDS, doubt
+from ..cautions import BOUNDS, doubt
 from ..errors import InputWarning, Range, check_fields
 
 __all__ = ["Pier"]

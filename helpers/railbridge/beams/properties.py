@@ -11,7 +11,7 @@ from typing import Annotated
 import numpy as np
 
 from .. import errors
-from ..bounds import BOUNDS, doubt, material, soft_bearing
+from ..cautions import BOUNDS, doubt, material, soft_bearing
 from ..errors import InputError, InputWarning, Range, brief, check_fields, within
 from ..units import G
 from .bearings import FARTHEST, Bearing, free_motions, on_deck

@@ -15,7 +15,7 @@ import numpy as np
 
 from .. import errors
 from ..beams import checked_spans, on_deck, span_ends
-from ..bounds import doubt, material, soft_bearing
+from ..cautions import doubt, material, soft_bearing
 from ..errors import InputError, InputWarning, Range, brief, check_fields, within
 from ..units import G
 from .pads import DIRECTIONS, STIFFEST

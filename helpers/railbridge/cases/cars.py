@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from .. import errors
+from ..contacts import CONTACT_STIFFNESS, HertzContact, with_wheelsets
 from ..errors import InputError, Range, field_types, within
-from ..hertz import HertzContact
 from ..vehicles import Body, Spring, Vehicle
-from ..wheelsets import CONTACT_STIFFNESS, with_wheelsets
 
 __all__ = [
     "CAR_PARAMETERS", "OPTIONAL_PARAMETERS", "planar_car", "sprung_mass", "two_bogie_car",

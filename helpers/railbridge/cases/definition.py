@@ -19,12 +19,11 @@ from typing import Any
 import numpy as np
 
 from .. import errors, exchange
+from ..cautions import doubts, remarks
 from ..checks import Assessment, Requirements, assess, usual_speeds
 from ..crossing import NotConvergedError, compute, warn_of
 from ..decks import Deck
 from ..errors import InputError, Remark, within
-from ..notices import remarks
-from ..plausibility import doubts
 from ..results import Crossing
 from ..settings import Options, Settings, bytes_needed, check, refuse_bytes
 from ..studies import Between, RandomResponse, random_response

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from ..cautions import parts_of
 from ..errors import InputWarning, Remark, ResultWarning, brief
-from ..plausibility import parts_of
 from ..studies import Ensemble, Extreme, RandomResponse, Statistics, program_version
 from .definition import Case
 from .randomness import random_track

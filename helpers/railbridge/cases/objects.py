@@ -16,18 +16,16 @@ from typing import Any
 from .. import errors, exchange
 from ..beams import Beam, Bearing, Pier, PointMass, Section
 from ..boxes import Box, BoxMesh, Pads
+from ..cautions import damping_constants, damping_frequencies
+from ..contacts import Rail, Wheelset, on_wheelsets
 from ..decks import Damping, Deck, rayleigh
 from ..errors import InputError, Remark, ResultWarning, did_you_mean, plain, within
 from ..exchange import ModesTable
-from ..irregularities import Cosines, RecordedRail, TrackRecord
-from ..plausibility import damping_constants, damping_frequencies
-from ..rails import Rail
-from ..shapes import Dip, Joint, Weld
+from ..irregularities import Cosines, Dip, Joint, RecordedRail, TrackRecord, Weld
 from ..tracks import Harmonic, Irregularity, Level, Notch, Rails, Track
 from ..tracks import Table as MeasuredTrack
 from ..trains import AnyTrain, AxleTrain, Train
 from ..vehicles import AntiRollBar, Body, Spring, Vehicle
-from ..wheelsets import Wheelset, on_wheelsets
 from . import shelf, tables
 from .axletrains import train
 from .cars import CAR_PARAMETERS, OPTIONAL_PARAMETERS, two_bogie_car

@@ -9,7 +9,8 @@ from typing import Any
 
 from pydantic_core import PydanticUndefined
 
-from .. import bounds, irregularities
+from .. import irregularities
+from ..cautions import bounds
 from ..units import UNITS
 from . import tables, unitpages
 from .tabletypes import Table

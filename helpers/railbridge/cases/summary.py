@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import errors, notices, percar
+from .. import cautions, errors, percar
 from ..decks import Deck, History, Line
 from ..errors import Remark
 from ..results import ENVELOPE, Crossing
@@ -45,7 +45,7 @@ def summarize(
     points : sequence of float
         Places along the deck, m.
     remarks : sequence of Remark, optional
-        What the reader must know, in words other than those of `notices.remarks`.
+        What the reader must know, in words other than those of `cautions.remarks`.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def summarize(
     ratio for all, not at all without damping.
     """
     s, deck = errors.instance("run", run, Crossing).settings, run.deck
-    remarks = notices.remarks(run) if remarks is None else remarks
+    remarks = cautions.remarks(run) if remarks is None else remarks
     points = errors.places("points", points, (0.0, deck.length)).tolist()
     kinds = run.train.kinds()
     iterated = s.interaction == "iterate"

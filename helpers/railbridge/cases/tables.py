@@ -22,21 +22,19 @@ from ..boxes.pads import STIFFEST as STIFFEST_PAD
 from ..checks import Requirements
 from ..codes.hslm import FORCES, SPACING
 from ..codes.wagons import WAGONS
+from ..contacts import Rail, Wheelset
 from ..decks import ALPHA, BETA, RATIO, ModalDamping
 from ..errors import InputError, Range, choice, keys, within
 from ..exchange import ModesTable
 from ..guideways import Guideway
-from ..irregularities import RandomTrack
+from ..irregularities import Dip, Joint, RandomTrack, Weld
 from ..irregularities.records import BAND, LARGEST_DRIFT, LARGEST_STEP, checked_band
 from ..irregularities.repairs import REPAIRS
-from ..rails import Rail
 from ..settings import Options
-from ..shapes import Dip, Joint, Weld
 from ..tracks import Harmonic, Notch
 from ..tracks import Table as MeasuredTrack
 from ..trains import AxleTrain, Train
 from ..vehicles import FREEDOMS, AntiRollBar, Body, Spring, Vehicle
-from ..wheelsets import Wheelset
 from .tabletypes import (
     Table,
     anything,

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import codes
+from ..cautions import ends_move
 from ..codes import Answer
 from ..codes.clauses import not_above
 from ..errors import counted
-from ..notices import ends_move
 from ..studies import Output
 from .judging import Finding, Point, Points, finding
 from .questions import Questions

@@ -23,11 +23,11 @@ from ..cases import pages, shelf, staging
 from ..cases.axletrains import train_list
 from ..cases.definition import Case, case
 from ..cases.summary import histories, to_json
+from ..cautions import unsettled
 from ..crossing import NotConvergedError
 from ..decks import Deck
 from ..errors import InputError, InputWarning, integer, printable, within
 from ..lessons import exercises, marking
-from ..notices import unsettled
 from ..results import Crossing
 from ..settings import bytes_needed
 from . import changing, copies, drawing, plotting, reporting, studying

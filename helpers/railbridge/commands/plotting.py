@@ -10,8 +10,8 @@ from collections.abc import Callable
 
 from .. import errors
 from ..cases import staging
+from ..cautions import unsettled
 from ..crossing import NotConvergedError
-from ..notices import unsettled
 from . import changing
 from .speech import Progress, say, warn
 

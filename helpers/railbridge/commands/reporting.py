@@ -12,9 +12,9 @@ from .. import errors, studies
 from ..cases import shelf, staging
 from ..cases.definition import Case
 from ..cases.sweeping import Plan
+from ..cautions import unsettled
 from ..crossing import NotConvergedError
 from ..errors import InputError
-from ..notices import unsettled
 from . import changing, studying
 from .speech import Progress, say, tell, warn
 

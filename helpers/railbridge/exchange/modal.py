@@ -29,11 +29,18 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .. import errors
-from ..bounds import BOUNDS, frequency_off, usual_frequencies
+from ..cautions import (
+    BOUNDS,
+    UNUSUAL,
+    first_vertical,
+    frequency_off,
+    longest_span,
+    scale_in_doubt,
+    usual_frequencies,
+)
 from ..decks import RATIO, Damping, Deck, checked_damping, cut_group, damping_ratios
 from ..errors import InputError, Remark, ResultWarning, brief
 from ..guideways import PiecewiseCubic
-from ..plausibility import UNUSUAL, first_vertical, longest_span, scale_in_doubt
 from .interpolation import cubics, hermite, parabolas, spline
 from .nodes import Nodes, RailLine
 

@@ -27,11 +27,11 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .. import errors
+from ..contacts import Rail
 from ..coupling import Coupling, DeckState, ForcesAdded, prepare
 from ..decks import History
 from ..errors import InputError, brief, within
 from ..guideways import Guideway, PiecewiseCubic
-from ..rails import Rail
 from ..settings import check, refuse_bytes
 from ..tracks import FadeIn, Track
 from ..trains import AnyTrain

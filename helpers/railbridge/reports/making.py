@@ -11,12 +11,12 @@ import numpy as np
 
 from .. import errors
 from ..cases.definition import Case
+from ..cautions import unsettled
 from ..checks import Assessment
 from ..codes import Answer, Verdicts
 from ..crossing import NotConvergedError
 from ..decks import Deck
 from ..errors import InputError, Remark
-from ..notices import unsettled
 from ..results import Crossing
 from ..trains import AnyTrain
 from .assumptions import assumptions, left_out

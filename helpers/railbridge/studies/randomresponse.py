@@ -22,12 +22,12 @@ from functools import cached_property
 import numpy as np
 
 from .. import errors
+from ..cautions import remarks_before
 from ..crossing import warn_of
 from ..decks import Deck
 from ..errors import InputError, InputWarning, Remark, brief
 from ..irregularities import RandomTrack, TrackSpectrum
 from ..irregularities.realisations import MOST_SEED
-from ..notices import remarks_before
 from ..settings import LEAD_IN_SECONDS
 from ..tracks import Track
 from ..trains import AnyTrain

@@ -25,8 +25,8 @@ import numpy as np
 from .. import errors
 from ..coupling import Coupling, prepare
 from ..decks import Deck
+from ..direct import CarSteps, plan
 from ..errors import InputError, brief, frozen
-from ..plans import CarSteps, plan
 from ..settings import Settings, check, refuse_bytes
 from ..tracks import Harmonic, Rails, Track
 from ..trains import AnyTrain

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import lfilter
 
-from ..plans import CarSteps, Plan
+from ..direct import CarSteps, Plan
 from ..response import ramp_coefficients
 
 __all__ = ["BLOCK", "Asking", "Waves", "Wheels", "step_waves"]

@@ -7,8 +7,8 @@ import pytest
 from hertz_ode import Rider, crossing
 
 import railbridge as rb
+from railbridge.direct.stepping import pressing
 from railbridge.response import ramp_coefficients
-from railbridge.stepping import pressing
 from railbridge.vehicles import Body, Spring, Vehicle
 
 RIDER = Rider(wheel=1000.0, body=6000.0, stiffness=1.5e6, damping=2e4, contact=1.0e9)
@@ -171,7 +171,7 @@ def test_a_damper_in_the_contact_adds_the_law_of_hunt_and_crossley():
 @pytest.mark.parametrize("compiles", [True, False])
 def test_contacts_obey_hertz_where_the_track_starts_with_a_step(compiles, monkeypatch):
     if not compiles:
-        monkeypatch.setattr("railbridge.direct.has_compiler", lambda: False)
+        monkeypatch.setattr("railbridge.direct.solution.has_compiler", lambda: False)
     car = rb.with_wheelsets(rb.planar_car(rb.vehicle("xia2000")), mass=1800.0)
     deck, r, speed = rb.deck("viaduct36"), 6e-5, 40.0
     track = rb.Track(vertical=rb.Table(x=[-200.0, 600.0], r=[r, r]))

@@ -27,8 +27,8 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import elliprd, elliprf
 
-from . import errors
-from .errors import Range, check_fields
+from .. import errors
+from ..errors import Range, check_fields
 
 __all__ = ["HertzContact"]
 

@@ -15,11 +15,11 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from .coupling import Coupling, DeckState, ForcesAdded
-from .errors import brief, frozen
+from ..coupling import Coupling, DeckState, ForcesAdded
+from ..errors import brief, frozen
+from ..tracks import Track
 from .plans import Plan, plan
 from .stepping import Marched, march
-from .tracks import Track
 
 __all__ = ["Direct", "has_compiler", "on_rigid_deck", "solve_directly"]
 

@@ -13,12 +13,12 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from . import errors
-from .bodies import AntiRollBar, Body, Spring
-from .errors import InputError, Range, check_fields, within
+from .. import errors
+from ..bodies import AntiRollBar, Body, Spring
+from ..errors import InputError, Range, check_fields, within
+from ..units import G
+from ..vehicles import Axle, Vehicle
 from .hertz import HertzContact
-from .units import G
-from .vehicles import Axle, Vehicle
 
 __all__ = ["CONTACT_STIFFNESS", "GAUGE", "Wheelset", "on_wheelsets", "with_wheelsets"]
 

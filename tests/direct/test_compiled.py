@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 import railbridge as rb
+from railbridge.contacts.wheelsets import Wheelset, on_wheelsets
 from railbridge.coupling import prepare
-from railbridge.plans import plan
+from railbridge.direct.plans import plan
+from railbridge.direct.stepping import march
 from railbridge.settings import check
-from railbridge.stepping import march
-from railbridge.wheelsets import Wheelset, on_wheelsets
 
-compiled = pytest.importorskip("railbridge.compiled", reason="needs the extra `fast`")
+compiled = pytest.importorskip("railbridge.direct.compiled", reason="needs the extra `fast`")
 
 HELPERS = Path(rb.__file__).parents[1]
 DECK = rb.deck("viaduct36")
@@ -124,22 +124,22 @@ def test_a_compiler_that_can_keep_nothing_compiles_all_the_same(tmp_path):
     # Files stand where both caches would make their folders, as on a disk that is read only.
     package = tmp_path / "railbridge"
     shutil.copytree(HELPERS / "railbridge", package, ignore=shutil.ignore_patterns("__pycache__"))
-    (package / "__pycache__").touch()
-    code = "from railbridge import compiled; print(compiled.__file__)"
+    (package / "direct" / "__pycache__").touch()
+    code = "from railbridge.direct import compiled; print(compiled.__file__)"
     kept = {n: v for n, v in os.environ.items() if not n.startswith("NUMBA_")}
     nowhere = dict.fromkeys(("HOME", "XDG_CACHE_HOME", "LOCALAPPDATA"), os.devnull)
     environment = kept | nowhere | {"PYTHONPATH": str(tmp_path), "PYTHONDONTWRITEBYTECODE": "1"}
     done = subprocess.run(
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
     )
-    assert done.stdout.strip() == str(package / "compiled.py"), done.stderr
+    assert done.stdout.strip() == str(package / "direct" / "compiled.py"), done.stderr
 
 
 def test_a_compiler_that_does_not_load_is_done_without(monkeypatch):
     train, options = rb.Train(LIGHT), {"speed": 50.0, "interaction": "direct", "lead_in": 0.0}
     expected = rb.cross(train, DECK, TRACK, **options)
-    monkeypatch.setitem(sys.modules, "railbridge.compiled", None)
-    monkeypatch.delattr(sys.modules["railbridge"], "compiled")
+    monkeypatch.setitem(sys.modules, "railbridge.direct.compiled", None)
+    monkeypatch.delattr(sys.modules["railbridge.direct"], "compiled")
     found = rb.cross(train, DECK, TRACK, **options)
     size = np.abs(expected.state.q).max()
     assert found.state.q == pytest.approx(expected.state.q, abs=1e-12 * size)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import railbridge as rb
-from railbridge import notices
-from railbridge.notices import remarks, unsettled
+from railbridge.cautions import notices
+from railbridge.cautions.notices import remarks, unsettled
 
 CAR = rb.vehicle("xia2000")
 DECK = rb.deck("viaduct36")

@@ -14,10 +14,10 @@ from modal_files import EXAMPLE, cells, change
 
 import railbridge as rb
 from railbridge.beams import Section
-from railbridge.bounds import BOUNDS, doubt, first_frequencies, frequency_off
 from railbridge.cases import shelf
+from railbridge.cautions.bounds import BOUNDS, doubt, first_frequencies, frequency_off
+from railbridge.cautions.plausibility import doubts, longest_span, scale_in_doubt
 from railbridge.errors import InputWarning
-from railbridge.plausibility import doubts, longest_span, scale_in_doubt
 from railbridge.settings import check
 from railbridge.validation import crossings, references, scenarios
 

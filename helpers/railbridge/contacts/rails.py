@@ -34,7 +34,7 @@ from typing import Annotated
 import numpy as np
 from scipy.linalg import solve_banded
 
-from .errors import InputError, Range, check_fields
+from ..errors import InputError, Range, check_fields
 
 __all__ = ["Rail"]
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from railbridge import bounds
-from railbridge.bounds import BOUNDS, doubt, material, soft_bearing, worst
+from railbridge.cautions import bounds
+from railbridge.cautions.bounds import BOUNDS, doubt, material, soft_bearing, worst
 
 # A slip as people type it, and the question that is asked.
 SLIPS = [

@@ -12,8 +12,8 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from . import errors
-from .errors import InputError, Range, check_fields
+from .. import errors
+from ..errors import InputError, Range, check_fields
 
 __all__ = ["Dip", "Joint", "Weld"]
 

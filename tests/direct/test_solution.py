@@ -127,7 +127,7 @@ def test_bare_axles_are_the_same_solved_either_way():
 def test_modes_that_loads_do_not_move_are_no_obstacle(compiles, monkeypatch):
     """As of another program's deck: its last mode does not touch the rails."""
     if not compiles:
-        monkeypatch.setattr("railbridge.direct.has_compiler", lambda: False)
+        monkeypatch.setattr("railbridge.direct.solution.has_compiler", lambda: False)
     deck = rb.Beam("beam", (20.0,), 8e3, 5e9).deck(3, 0.02)
     shapes = replace(deck.shapes, coefficients=deck.shapes.coefficients.copy())
     shapes.coefficients[:, :, -1] = 0.0

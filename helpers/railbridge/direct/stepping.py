@@ -44,7 +44,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .errors import brief
+from ..errors import brief
 from .plans import CarSteps, Plan
 
 __all__ = ["Marched", "handed_on", "march", "pressing", "step"]

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .errors import InputWarning
-from .units import G
+from ..errors import InputWarning
+from ..units import G
 
 __all__ = [
     "ABOVE", "BELOW", "BOUNDS", "SLOWEST_LATERAL", "SLOWEST_TORSION", "Bound", "doubt",

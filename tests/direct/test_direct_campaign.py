@@ -3,7 +3,7 @@
 Decks of 0.3 to 15 t/m, of one span or two, on rigid or elastic bearings, with and without rails;
 cars in space or in their plane, with and without mass in their wheels, on contacts of 2e8 to 3e9
 N/m; every way of loading; 8 to 95 m/s. A few cases run always; five hundred, with how each fixed
-point was found, by `RAILBRIDGE_CAMPAIGN=500 pytest -s tests/test_direct_campaign.py`.
+point was found, by `RAILBRIDGE_CAMPAIGN=500 pytest -s tests/direct/test_direct_campaign.py`.
 """
 
 import os

@@ -11,7 +11,7 @@ from scipy.integrate import cumulative_trapezoid, quad
 from tests.independent.rail_on_bed import RailOverDeck
 
 import railbridge as rb
-from railbridge import rails
+from railbridge.contacts import rails
 from railbridge.guideways import PiecewiseCubic
 from railbridge.results import ENVELOPE
 

@@ -5,8 +5,8 @@ import pytest
 
 import railbridge as rb
 from railbridge.coupling import grows, prepare
+from railbridge.direct.windows import in_windows
 from railbridge.settings import check
-from railbridge.windows import in_windows
 
 CAR = rb.planar_car(rb.vehicle("xia2000"))
 TRACK = rb.Track(vertical=rb.Harmonic(3e-3, wavelength=11.0))
@@ -55,7 +55,7 @@ def test_windows_grow_and_shrink_and_are_told_of():
     sizes = np.diff(np.concatenate([[0], run.windows.stops]))
     assert sizes.sum() == len(run.time) and sizes.max() > 2 * np.min(sizes[1:-1])
     assert run.windows.passes.max() < 50 and np.all(run.windows.changes < 1e-8)
-    (remark,) = [str(r) for r in rb.notices.remarks(run) if "windows" in str(r)]
+    (remark,) = [str(r) for r in rb.remarks(run) if "windows" in str(r)]
     assert f"cut into {len(sizes)} windows in time" in remark
     assert f"in {run.windows.passes.max()} passes at most" in remark
 

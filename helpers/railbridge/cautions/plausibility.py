@@ -14,6 +14,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..decks import Deck
+from ..errors import InputWarning, counted
+from ..settings import Settings
+from ..tracks import Irregularity, Notch, Rails, Track
+from ..trains import AnyTrain, AxleTrain, Train
+from ..units import G
+from ..vehicles import Body, Vehicle
 from .bounds import (
     ABOVE,
     BELOW,
@@ -26,13 +33,6 @@ from .bounds import (
     usual_frequencies,
     worst,
 )
-from .decks import Deck
-from .errors import InputWarning, counted
-from .settings import Settings
-from .tracks import Irregularity, Notch, Rails, Track
-from .trains import AnyTrain, AxleTrain, Train
-from .units import G
-from .vehicles import Body, Vehicle
 
 __all__ = [
     "UNUSUAL", "damping_constants", "damping_frequencies", "doubts", "first_vertical",

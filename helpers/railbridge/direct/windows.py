@@ -15,8 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .coupling import CoupledCar, Coupling, DeckState
-from .errors import brief, frozen
+from ..coupling import CoupledCar, Coupling, DeckState
+from ..errors import brief, frozen
 from .plans import Plan, plan
 from .stepping import handed_on, step
 

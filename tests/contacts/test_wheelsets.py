@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import railbridge as rb
-from railbridge.hertz import HertzContact
-from railbridge.wheelsets import Wheelset, on_wheelsets, with_wheelsets
+from railbridge.contacts.hertz import HertzContact
+from railbridge.contacts.wheelsets import Wheelset, on_wheelsets, with_wheelsets
 
 CAR = rb.vehicle("xia2000")
 STEEL = {"mass": 1800.0, "roll_inertia": 1000.0}

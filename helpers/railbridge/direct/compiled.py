@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from .errors import brief
+from ..errors import brief
 from .plans import CarSteps, Plan
 from .stepping import MOST, TOLERANCE, Marched
 

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .coupling import CoupledCar, Coupling
-from .errors import brief
-from .guideways import Stations
-from .response import SampledResponse, oscillator, ramp_coefficients
-from .tracks import Track
-from .trains import rail_input
+from ..coupling import CoupledCar, Coupling
+from ..errors import brief
+from ..guideways import Stations
+from ..response import SampledResponse, oscillator, ramp_coefficients
+from ..tracks import Track
+from ..trains import rail_input
 
 __all__ = ["CarSteps", "Plan", "plan"]
 

@@ -6,12 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from .cutoffs import counted
-from .decks import Deck
-from .errors import InputError, InputWarning, Remark, ResultWarning
-from .plausibility import doubts, parts_of
-from .results import Crossing
-from .settings import (
+from ..cutoffs import counted
+from ..decks import Deck
+from ..errors import InputError, InputWarning, Remark, ResultWarning
+from ..results import Crossing
+from ..settings import (
     COARSE_SAMPLES_PER_CONTACT,
     COARSE_SAMPLES_PER_PERIOD,
     LEAD_IN_SECONDS,
@@ -19,8 +18,9 @@ from .settings import (
     contact_frequency,
     highest_frequency,
 )
-from .tracks import Track
-from .trains import AnyTrain, Train, steady_forces
+from ..tracks import Track
+from ..trains import AnyTrain, Train, steady_forces
+from .plausibility import doubts, parts_of
 
 __all__ = ["ends_move", "remarks", "remarks_before", "unsettled"]
 

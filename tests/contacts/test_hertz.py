@@ -9,7 +9,7 @@ from scipy.integrate import quad
 from scipy.special import ellipe, ellipk
 
 import railbridge as rb
-from railbridge.hertz import HertzContact
+from railbridge.contacts.hertz import HertzContact
 
 WHEEL = HertzContact()
 
