@@ -24,12 +24,14 @@ from .beams import Beam, Bearing, Pier, PointMass
 from .cautions import remarks
 from .contacts import Rail, with_wheelsets
 from .crossing import NotConvergedError, cross
-from .decks import Deck, History, ModalDamping, rayleigh, rayleigh_ratio
+from .damping import ModalDamping, rayleigh, rayleigh_ratio
+from .decks import Deck, History
 from .errors import InputError, InputWarning, ResultWarning
 from .results import Crossing
 from .spectra import Spectrum, amplitude_spectrum, deviation_percent
+from .steady import steady_forces
 from .tracks import FadeIn, Harmonic, Level, Notch, Rails, Table, Track
-from .trains import CONDENSED, AxleTrain, Passage, Train, steady_forces
+from .trains import CONDENSED, AxleTrain, Passage, Train
 from .vehicles import AntiRollBar, Body, Spring, Vehicle
 
 __version__ = "0.1.0"

@@ -9,7 +9,7 @@ import pytest
 
 import railbridge as rb
 from railbridge.plots import animate_car_on_waves, animate_rigid_and_flexible
-from railbridge.trains import steady_motion
+from railbridge.steady import steady_motion
 
 CAR = rb.vehicle("xia2000")
 WAVE = rb.Harmonic(5e-3, 14.4)

@@ -9,7 +9,8 @@ import numpy as np
 
 from .. import errors
 from ..contacts import Rail
-from ..decks import Damping, Deck, checked_damping, cut_group, damping_ratios, viscosity
+from ..damping import Damping, checked_damping, damping_ratios, viscosity
+from ..decks import Deck, cut_group
 from ..errors import InputError, Remark, brief
 from .influence import BeamRecovery
 from .mesh import DENSE, BeamModes, Mesh

@@ -7,7 +7,8 @@ from functools import cached_property
 from typing import Any
 
 from ..beams import Beam, Bearing
-from ..decks import Damping, Deck, checked_damping, damping_ratios
+from ..damping import Damping, checked_damping, damping_ratios
+from ..decks import Deck
 from ..errors import InputError, ResultWarning, brief
 from .boxshell import BoxMesh, shell_of
 from .dimensions import BoxDimensions

@@ -18,7 +18,8 @@ from ..beams import Beam, Bearing, Pier, PointMass, Section
 from ..boxes import Box, BoxMesh, Pads
 from ..cautions import damping_constants, damping_frequencies
 from ..contacts import Rail, Wheelset, on_wheelsets
-from ..decks import Damping, Deck, rayleigh
+from ..damping import Damping, rayleigh
+from ..decks import Deck
 from ..errors import InputError, Remark, ResultWarning, did_you_mean, plain, within
 from ..exchange import ModesTable
 from ..irregularities import Cosines, Dip, Joint, RecordedRail, TrackRecord, Weld

@@ -14,7 +14,7 @@ import numpy as np
 from .. import errors
 from ..codes import DAMPING, damping_lower_bound
 from ..cutoffs import EN1990_LEAST
-from ..decks import RATIO
+from ..damping import RATIO
 from ..errors import InputError, Range, check_fields
 from . import staging
 from .definition import Case

@@ -23,7 +23,7 @@ from ..checks import Requirements
 from ..codes.hslm import FORCES, SPACING
 from ..codes.wagons import WAGONS
 from ..contacts import Rail, Wheelset
-from ..decks import ALPHA, BETA, RATIO, ModalDamping
+from ..damping import ALPHA, BETA, RATIO, ModalDamping
 from ..errors import InputError, Range, choice, keys, within
 from ..exchange import ModesTable
 from ..guideways import Guideway

@@ -18,8 +18,9 @@ from ..settings import (
     contact_frequency,
     highest_frequency,
 )
+from ..steady import steady_forces
 from ..tracks import Track
-from ..trains import AnyTrain, Train, steady_forces
+from ..trains import AnyTrain, Train
 from .plausibility import doubts, parts_of
 
 __all__ = ["ends_move", "remarks", "remarks_before", "unsettled"]

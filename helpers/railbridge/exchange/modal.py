@@ -38,7 +38,8 @@ from ..cautions import (
     scale_in_doubt,
     usual_frequencies,
 )
-from ..decks import RATIO, Damping, Deck, checked_damping, cut_group, damping_ratios
+from ..damping import RATIO, Damping, checked_damping, damping_ratios
+from ..decks import Deck, cut_group
 from ..errors import InputError, Remark, ResultWarning, brief
 from ..guideways import PiecewiseCubic
 from .interpolation import cubics, hermite, parabolas, spline

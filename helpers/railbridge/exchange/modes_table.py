@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
-from ..decks import Damping, Deck
+from ..damping import Damping
+from ..decks import Deck
 from ..errors import Range, brief, check_fields, within
 from .files import read_modes
 from .modal import deck_from_modes

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from ..decks import rayleigh
+from ..damping import rayleigh
 from ..tracks import Notch
 from .replies import UNANSWERED, Reply, is_open, number_reply
 

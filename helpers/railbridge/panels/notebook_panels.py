@@ -12,7 +12,8 @@ import numpy as np
 from .. import plots
 from ..cases.definition import Case
 from ..cases.opening import open_study
-from ..decks import Deck, rayleigh
+from ..damping import rayleigh
+from ..decks import Deck
 from ..errors import Remark
 from ..plots.drawing import reuses_artists
 from ..plots.forces import car_components, mark_instant
@@ -21,8 +22,9 @@ from ..plots.scene import arrow_force, axle_forces, comfortable_exaggeration, cr
 from ..plots.speeds import force_over_speed, frequency_met, speeds_in_step
 from ..plots.style import mode_in_words
 from ..results import Crossing
+from ..steady import steady_forces
 from ..tracks import Track
-from ..trains import AnyTrain, steady_forces
+from ..trains import AnyTrain
 from .control import Control
 from .panel import DPI, Panel
 from .shared import (

@@ -8,7 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .. import errors
-from ..decks import Deck, load_of, rayleigh_ratio
+from ..damping import rayleigh_ratio
+from ..decks import Deck, load_of
 from .drawing import (
     PLACE_LABEL,
     axes_or_new,

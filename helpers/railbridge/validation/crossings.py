@@ -14,7 +14,8 @@ from ..beams.beam import Beam
 from ..cases.cars import planar_car, sprung_mass
 from ..cases.objects import vehicle
 from ..crossing import compute
-from ..decks import Deck, rayleigh
+from ..damping import rayleigh
+from ..decks import Deck
 from ..results import Crossing
 from ..settings import check
 from ..tracks import Harmonic, Track

@@ -16,10 +16,11 @@ from typing import Any
 import numpy as np
 
 from ..cases.objects import vehicle
-from ..decks import rayleigh, rayleigh_ratio
+from ..damping import rayleigh, rayleigh_ratio
 from ..results import Crossing
+from ..steady import steady_forces
 from ..tracks import Harmonic, Track
-from ..trains import LOADS, steady_forces
+from ..trains import LOADS
 from .published import (
     DAMPING,
     FORCING,

@@ -7,8 +7,9 @@ import numpy as np
 from ... import errors
 from ...errors import InputError
 from ...results import Crossing
+from ...steady import steady_motion
 from ...tracks import FadeIn, Harmonic, Track
-from ...trains import Car, steady_motion
+from ...trains import Car
 from ...vehicles import Vehicle
 from ..outlines import drawn_length
 from ..style import DECK_COLOUR, GREY, style_of
