@@ -9,9 +9,9 @@ from .plausibility import (
     doubts,
     first_vertical,
     longest_span,
-    parts_of,
     scale_in_doubt,
 )
+from .tracksindoubt import parts_of
 
 __all__ = [
     "BOUNDS", "UNUSUAL", "damping_constants", "damping_frequencies", "doubt", "doubts",

@@ -21,7 +21,8 @@ from ..settings import (
 from ..steady import steady_forces
 from ..tracks import Track
 from ..trains import AnyTrain, Train
-from .plausibility import doubts, parts_of
+from .plausibility import doubts
+from .tracksindoubt import parts_of
 
 __all__ = ["ends_move", "remarks", "remarks_before", "unsettled"]
 

@@ -9,18 +9,17 @@ same bounds and leaves in `Deck.remarks`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..decks import Deck
-from ..errors import InputWarning, counted
+from ..errors import InputWarning
 from ..settings import Settings
-from ..tracks import Irregularity, Notch, Rails, Track
-from ..trains import AnyTrain, AxleTrain, Train
+from ..tracks import Track
+from ..trains import AnyTrain
 from ..units import G
-from ..vehicles import Body, Vehicle
 from .bounds import (
     ABOVE,
     BELOW,
@@ -31,12 +30,13 @@ from .bounds import (
     first_frequencies,
     frequency_off,
     usual_frequencies,
-    worst,
 )
+from .tracksindoubt import of_track, on_one_rail
+from .trainsindoubt import of_train
 
 __all__ = [
     "UNUSUAL", "damping_constants", "damping_frequencies", "doubts", "first_vertical",
-    "longest_span", "parts_of", "scale_in_doubt",
+    "longest_span", "scale_in_doubt",
 ]  # fmt: skip
 
 UNUSUAL = "modes.unusual", "= true: a first frequency beyond those of bridges is accepted."
@@ -62,11 +62,11 @@ def doubts(
     """
     signs = _signs(deck)
     scale = [] if _explained(deck) else _scale(deck, signs)
-    of_train = _of_train(train)
-    found = [*scale, *_damping(deck, signs, bool(scale)), *_places(deck), *of_train]
-    found += _off_axis(deck, settings) + _of_track(track) + _on_one_rail(train, track)
+    trains = of_train(train)
+    found = [*scale, *_damping(deck, signs, bool(scale)), *_places(deck), *trains]
+    found += _off_axis(deck, settings) + of_track(track) + on_one_rail(train, track)
     found += _speed(train, settings.speed)
-    if not (scale or of_train or _explained(deck)):
+    if not (scale or trains or _explained(deck)):
         found += _live_sag(train, deck, signs.span)
     return tuple(found)
 
@@ -397,89 +397,7 @@ def _places(deck: Deck) -> list[InputWarning]:
     return found
 
 
-# ---- the train
-
-
-def _of_train(train: AnyTrain) -> list[InputWarning]:
-    if isinstance(train, AxleTrain):
-        return _of_axles(train)
-    found = [warning for vehicle, _ in train.kinds() for warning in _of_vehicle(vehicle)]
-    if isinstance(train, Train):
-        found += _of_spacing(train)
-    for i, notch in enumerate(train.notches, start=1):
-        found += _of_notch(f"train.notches[{i}]", notch)
-    return found
-
-
-def _of_axles(train: AxleTrain) -> list[InputWarning]:
-    found = doubt("axle_load", "train.loads", worst("axle_load", train.loads))
-    gaps = np.diff(train.axles)
-    if len(gaps):
-        wrong = doubt("axle_gap", "train.axles", float(gaps.min()))
-        wrong = wrong or doubt("axle_pause", "train.axles", float(gaps.max()))
-        found += [InputWarning(w.field, f"stand apart by {w.text[2:]}") for w in wrong]
-    return found
-
-
-def _of_vehicle(vehicle: Vehicle) -> list[InputWarning]:
-    """Return the first doubt about a vehicle's masses, suspension and places."""
-    x = np.sort([axle.x for axle in vehicle.axles])
-    base, gaps = float(x[-1] - x[0]), np.diff(x)
-    load = sum(wheel.static_load for wheel in vehicle.contacts) / len(x)
-    for body in vehicle.bodies:
-        for wrong in _of_body(body, load):
-            return [
-                InputWarning(wrong.field, f"({vehicle.name}): mass of {body.name} {wrong.text}")
-            ]
-    light = min((body.mass for body in vehicle.wheelsets), default=None)
-    checks = [
-        ("mass of a wheelset", "wheelset_mass", light),
-        ("weight over axles", "car_load", load or None),  # none without vertical freedoms
-        ("smallest axle distance", "axle_gap", float(gaps.min()) if len(gaps) else None),
-        ("largest axle distance", "axle_reach", float(gaps.max()) if len(gaps) else None),
-        ("distance of wheels", "half_gauge", max(abs(wheel.y) for wheel in vehicle.contacts)),
-    ]
-    for what, name, value in checks:
-        for wrong in doubt(name, "train.vehicle", value):
-            return [InputWarning(wrong.field, f"({vehicle.name}): {what} {wrong.text}")]
-    lowest = float(vehicle.modes().frequencies_hz[0])
-    if not BOUNDS["vehicle_frequency"].holds(lowest):
-        text = f"({vehicle.name}): lowest frequency = {lowest:.3g} Hz, cars have 0.4 Hz and more: "
-        return [InputWarning("train.vehicle", text + "springs given in kN/m?")]
-    if vehicle.length and not BOUNDS["overhang"].holds(max(vehicle.length - base, 0.0)):
-        text = f"({vehicle.name}): length = {vehicle.length:g} m, its wheel base is {base:g} m: "
-        return [InputWarning("train.vehicle", text + "given in mm or cm?")]
-    return []
-
-
-def _of_body(body: Body, axle_load: float) -> list[InputWarning]:
-    """Doubt a body's mass: by itself, or where the axles carry next to nothing (N)."""
-    if 0.0 < axle_load < BOUNDS["axle_load"].low and 20.0 <= body.mass < 100.0:
-        text = f"= {body.mass:g} kg, axles carry {axle_load:.3g} N: "
-        return [InputWarning("train.vehicle", text + BOUNDS["body_mass"].slip(body.mass))]
-    return doubt("body_mass", "train.vehicle", body.mass)
-
-
-def _of_spacing(train: Train) -> list[InputWarning]:
-    spacing = train.car_spacing
-    lengths = [vehicle.length for vehicle in train.vehicles if vehicle.length]
-    if spacing is None or len(train.vehicles) < 2 or not lengths:
-        return []
-    longest, axles = max(lengths), max(len(vehicle.axles) for vehicle in train.vehicles)
-    text = f"= {spacing:g} m, cars are {longest:g} m long: "
-    if spacing < longest - 0.5 and axles > 1:  # a mass on one spring has no length of its own
-        return [InputWarning("train.car_spacing", text + "is it shorter than the car?")]
-    if BOUNDS["overhang"].holds(max(spacing - longest, 0.0)):
-        return []
-    slips = ((10.0, "ten times too large"), (1e2, "given in cm"), (1e3, "given in mm"))
-    likely = [words for k, words in slips if longest - 0.5 <= spacing / k <= 2 * longest]
-    slip = likely[0] if likely else "is its decimal point right"
-    return [InputWarning("train.car_spacing", f"{text}{slip}?")]
-
-
-def _of_notch(field: str, notch: Notch) -> list[InputWarning]:
-    found = doubt("notch_depth", f"{field}.depth", notch.depth)
-    return found + doubt("circumference", f"{field}.circumference", notch.circumference)
+# ---- all together
 
 
 def _off_axis(deck: Deck, settings: Settings) -> list[InputWarning]:
@@ -512,88 +430,3 @@ def _live_sag(train: AnyTrain, deck: Deck, span: float) -> list[InputWarning]:
         return []
     text = f"lets the deck sag {sag:.3g} m in {span:.3g} m under the standing train: too soft, or "
     return [InputWarning(_stiffness(deck), text + "are the loads too large?")]
-
-
-# ---- the track
-
-
-def _of_track(track: Track) -> list[InputWarning]:
-    found = []
-    for field, part in parts_of(track):
-        if hasattr(part, "amplitude") and hasattr(part, "wavelength"):
-            found += _of_wave(field, part)
-        elif hasattr(part, "x") and hasattr(part, "r"):
-            found += _of_table(field, part)
-        elif hasattr(part, "amplitudes"):
-            found += _of_sum(field.removesuffix(".left"), part) if ".right" not in field else []
-    return found
-
-
-def _on_one_rail(train: AnyTrain, track: Track) -> list[InputWarning]:
-    """Doubt rails that differ below wheels at y = 0, which all stand on the left one."""
-    found, apart_by = [], {"lateral": "gauge", "vertical": "cross-level"}
-    for column, (direction, apart) in enumerate(apart_by.items()):
-        if track.rail(direction, "left") == track.rail(direction, "right"):
-            continue
-        names = [
-            vehicle.name
-            for vehicle, _ in train.kinds()
-            if all(wheel.y == 0.0 for wheel in vehicle.contacts)
-            and vehicle.contact_stiffness[:, column].any()
-        ]
-        if names:
-            text = f"has rails that differ, and all wheels of {counted(names, 4)} stand at y = 0, "
-            text += f"on the left rail: {apart} moves them. Give both rails the same, or set "
-            text += "rails_differ = false (RandomTrack: leave out cross_level and gauge)"
-            found.append(InputWarning(f"track.{direction}", text))
-    return found
-
-
-def parts_of(track: Track) -> Iterator[tuple[str, Irregularity]]:
-    """Give every irregularity of a track, as it was given, with its path."""
-    for direction in ("vertical", "lateral"):
-        yield from _parts(f"track.{direction}", getattr(track, direction))
-
-
-def _parts(field: str, given: object) -> Iterator[tuple[str, Irregularity]]:
-    """Give every irregularity of a direction with its path."""
-    if isinstance(given, Rails):
-        for side in ("left", "right"):
-            yield from _parts(f"{field}.{side}", getattr(given, side))
-    elif isinstance(given, (list, tuple)):
-        for i, part in enumerate(given, start=1):
-            yield from _parts(f"{field}[{i}]", part)
-    elif given is not None:
-        yield field, given
-
-
-def _of_wave(field: str, wave: Irregularity) -> list[InputWarning]:
-    found = doubt("wavelength", f"{field}.wavelength", wave.wavelength)
-    found = found or doubt("amplitude", f"{field}.amplitude", wave.amplitude)
-    steep = 2 * np.pi * wave.amplitude / wave.wavelength
-    if not found and not BOUNDS["slope"].holds(steep):
-        text = f"= {wave.amplitude:g} m in waves of {wave.wavelength:g} m makes slopes of "
-        text += f"{steep:.2g}: {BOUNDS['amplitude'].slip(wave.amplitude)}"
-        found = [InputWarning(f"{field}.amplitude", text)]
-    if not BOUNDS["phase"].holds(wave.phase):
-        text = f"= {wave.phase:g} rad is more than a turn: given in degrees?"
-        found.append(InputWarning(f"{field}.phase", text))
-    return found
-
-
-def _of_sum(field: str, waves: Irregularity) -> list[InputWarning]:
-    """Doubt a random rail whose standard deviation is larger than waves usually are."""
-    sigma = float(np.sqrt(np.sum(np.abs(waves.amplitudes) ** 2) / 2))
-    bound = BOUNDS["amplitude"]
-    if bound.holds(sigma):
-        return []
-    text = f"is random with a standard deviation of {sigma:.3g} m, usual is {bound.range}"
-    return [InputWarning(field, f"{text}: {bound.slip(sigma)}")]
-
-
-def _of_table(field: str, measured: Irregularity) -> list[InputWarning]:
-    steep = float(np.max(np.abs(np.diff(measured.r) / np.diff(measured.x))))
-    if BOUNDS["slope"].holds(steep):
-        return []
-    text = f"reaches {np.abs(measured.r).max():g} m with slopes of {steep:.2g}, usual is "
-    return [InputWarning(f"{field}.r", f"{text}{BOUNDS['slope'].range}: given in mm, or x in km?")]
