@@ -26,6 +26,7 @@ from .rules import coverage, line_gaps, rules, speed_gaps
 from .staticloads import StaticLoads
 from .structure import Structure
 from .trainclauses import TrainClauses
+from .trust import Trust
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -177,8 +178,12 @@ def assess(
     answers = rules(parts.structure, parts.questions)
     own_speeds, line_speed = found.speeds.tolist(), needs.line_speed
     answers["speeds_covered"] = coverage(answers, own_speeds, isinstance(speeds, Between))
+    stepped = {
+        name: train for name, train in found.trains.items() if not isinstance(train, AxleTrain)
+    }
+    trust = Trust.of(Options(speed=1.0, **options), deck, parts.questions.kept, stepped)
     clauses = TrainClauses(
-        parts.structure, parts.questions, parts.loads, _smooth(track, found.trains.values()),
+        parts.structure, parts.questions, parts.loads, trust, _smooth(track, found.trains.values()),
         speed_gaps(answers, own_speeds, line_speed), line_gaps(own_speeds, line_speed),
         options.get("interaction") == "rigid",
     )  # fmt: skip
@@ -242,9 +247,10 @@ def assess_run(run: Crossing, needs: Requirements) -> Verdicts:
     name = getattr(run.train, "name", "") or "train"
     cars = not isinstance(run.train, AxleTrain)
     point = Point(name, cars, run.settings.speed, row_of_run(run, asked))
+    trust = Trust.of(run.settings, run.deck, parts.questions.kept, {name: run.train}, run)
     clauses = TrainClauses(
-        parts.structure, parts.questions, parts.loads, _smooth(run.track, [run.train]),
-        unfelt=run.settings.interaction != "direct" and run.iteration == 0,
+        parts.structure, parts.questions, parts.loads, trust, _smooth(run.track, [run.train]),
+        unfelt=run.iteration == 0,
     )  # fmt: skip
     worst = clauses.findings(Points.of([point], asked))
     findings = [*parts.loads.findings(), *worst]

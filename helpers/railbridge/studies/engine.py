@@ -15,6 +15,7 @@ from .. import errors
 from ..crossing import NotConvergedError, compute
 from ..decks import Deck
 from ..errors import InputError
+from ..notices import left_open, transient
 from ..results import Crossing
 from ..settings import Settings
 from ..tracks import Track
@@ -53,6 +54,14 @@ NUMBERS: dict[str, tuple[str, str, Callable[[Crossing], float]]] = {
     ),
     "deviation_from_rigid": ("%", "Eq. 3 of the last pass against the rigid deck", _deviation),
     "iterations": ("-", "passes after the rigid deck", lambda run: float(run.iterations)),
+    "left_open": (
+        "-", "share of the wheel forces' dynamic part that further passes would still change",
+        left_open,
+    ),
+    "transient": (
+        "-", "share of the steady wheel forces that is transient while the first car crosses; 0 "
+        "where that is not known", transient,
+    ),
 }  # fmt: skip
 """What a study can be asked for of a whole crossing: unit, meaning, and how a run is asked."""
 
@@ -210,7 +219,7 @@ def respond(
         heaviest = max(axle.static_load for axle in train.placed_axles)
         known = {
             "wheel_unloading": 0.0, "wheel_force_z": heaviest, "body_acceleration_z": np.nan,
-            "deviation_from_rigid": 0.0, "iterations": 0.0,
+            "deviation_from_rigid": 0.0, "iterations": 0.0, "left_open": 0.0, "transient": 0.0,
         }  # fmt: skip
         numbers = np.array([known[name] for name in asked.numbers])
         for n, i in enumerate(own):
