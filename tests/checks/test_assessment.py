@@ -447,3 +447,19 @@ def test_a_track_that_is_level_vertically_is_perfect():
         row = rows(rb.assess_run(rb.cross(coaches, stiff, track, speed=37.5), NEEDS))
         assert ("perfect track" in row["wheel unloading"].reason) is smooth
         assert ("phi'' left out" in row["moment by dynamic analysis"].reason) is not smooth
+
+
+def test_a_flat_spot_makes_no_rough_track():
+    """phi'' stands for the rails all along the line, which one bad wheel says nothing of."""
+    notch = rb.Notch(((1, 1),), circumference=2.9, offset=0.0, depth=1e-3, length=0.3)
+    worn = rb.Train(rb.vehicle("xia2000"), cars=1, notches=[notch])
+    stiff = rb.Beam("beam", (L,), M, 2e10).deck(6, 0.01)
+    for found in (
+        rb.assess(stiff, worn, [37.5], NEEDS).verdicts,
+        rb.assess_run(rb.cross(worn, stiff, speed=37.5), NEEDS),
+    ):
+        row = rows(found)
+        assert "phi'' left out" not in row["moment by dynamic analysis"].reason
+        assert "on a perfect track" in row["comfort b_v"].reason
+        assert "on a perfect track" in row["wheel unloading"].reason
+        assert row["wheel unloading"].verdict != "met"

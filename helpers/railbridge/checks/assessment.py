@@ -183,7 +183,7 @@ def assess(
     }
     trust = Trust.of(Options(speed=1.0, **options), deck, parts.questions.kept, stepped)
     clauses = TrainClauses(
-        parts.structure, parts.questions, parts.loads, trust, _smooth(track, found.trains.values()),
+        parts.structure, parts.questions, parts.loads, trust, _smooth(track),
         speed_gaps(answers, own_speeds, line_speed), line_gaps(own_speeds, line_speed),
         options.get("interaction") == "rigid",
     )  # fmt: skip
@@ -249,7 +249,7 @@ def assess_run(run: Crossing, needs: Requirements) -> Verdicts:
     point = Point(name, cars, run.settings.speed, row_of_run(run, asked))
     trust = Trust.of(run.settings, run.deck, parts.questions.kept, {name: run.train}, run)
     clauses = TrainClauses(
-        parts.structure, parts.questions, parts.loads, trust, _smooth(run.track, [run.train]),
+        parts.structure, parts.questions, parts.loads, trust, _smooth(run.track),
         unfelt=run.iteration == 0,
     )  # fmt: skip
     worst = clauses.findings(Points.of([point], asked))
@@ -285,14 +285,14 @@ def _all_modes(options: dict[str, Any]) -> dict[str, Any]:
     return options | {"acceleration_modes": "all"}
 
 
-def _smooth(track: Track | None, trains: Any) -> bool:
-    """Whether rails are level and wheels round: then phi'' speaks for what they are not.
+def _smooth(track: Track | None) -> bool:
+    """Whether rails are level: then phi'' speaks for what they are not.
 
-    Waves sideways unload no wheel and shake no deck up and down.
+    Waves sideways unload no wheel and shake no deck up and down, and the flat spot of one wheel
+    says nothing of the rails.
     """
     track = Track() if track is None else track
-    level = all(_flat(track.rail("vertical", side)) for side in ("left", "right"))
-    return level and not any(getattr(train, "notches", ()) for train in trains)
+    return all(_flat(track.rail("vertical", side)) for side in ("left", "right"))
 
 
 def _flat(rail: Irregularity) -> bool:

@@ -48,7 +48,7 @@ class TrainClauses:
     trust : Trust
         Which crossings' numbers may decide.
     smooth : bool
-        Whether the track is level and the wheels are round.
+        Whether the rails are level, whatever the wheels are.
     gaps : tuple of str
         What the speeds leave out of a dynamic analysis.
     slow : tuple of str
