@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -20,10 +21,11 @@ from ..results import Crossing
 from ..settings import Settings
 from ..tracks import Track
 from ..trains import AnyTrain, AxleTrain
+from ..units import without_rounding
 from .constant import constant_loads
 from .lanes import KNOWN, WIDTH, advance_of, eligible, run_lanes
 from .mixtures import mixture_key, run_mixtures
-from .outputs import Output, Peaks, peaks_of_run
+from .outputs import OUTPUTS, Output, Peaks, peaks_of_run
 
 __all__ = ["NUMBERS", "Asked", "Job", "Row", "asked_of", "respond", "row_of_run"]
 
@@ -82,6 +84,12 @@ class Asked:
     outputs: tuple[Output, ...]
     numbers: tuple[str, ...] = ()
     more: Mapping[str, Callable[[Crossing], float]] = field(default_factory=dict)
+
+    @cached_property
+    def by_unit(self) -> dict[str, np.ndarray]:
+        """Which outputs are in which unit."""
+        units = np.array([OUTPUTS.get(output.quantity, "") for output in self.outputs])
+        return {str(unit): np.flatnonzero(units == unit) for unit in np.unique(units)}
 
     @property
     def width(self) -> int:
@@ -256,4 +264,14 @@ def _checked(values: np.ndarray, asked: Asked) -> Row:
     """Return a row of numbers; one that failed where extremes are not finite."""
     if not np.isfinite(values[: 4 * len(asked.outputs)]).all():
         return Row.failed(asked, "the crossing gave numbers that are not finite")
-    return Row(values)
+    return Row(_told(values, asked))
+
+
+def _told(values: np.ndarray, asked: Asked) -> np.ndarray:
+    """Return a row in which extremes that are only rounding are zero."""
+    told = values.copy()
+    peaks = told[: len(_PEAKS) * len(asked.outputs)].reshape(len(_PEAKS), -1)
+    for pair in (slice(0, 2), slice(4, 6)):  # smallest and largest value, moving and static
+        for unit, own in asked.by_unit.items():
+            peaks[pair, own] = without_rounding(peaks[pair, own].T, unit).T
+    return told
