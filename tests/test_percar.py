@@ -77,8 +77,8 @@ def test_bare_loads_are_no_cars_and_their_table_is_empty():
 
 
 def test_what_is_nowhere_finite_has_no_extremes():
-    assert percar.extremes(np.full((2, 3), np.nan), np.arange(3.0), [{}, {}]) is None
+    assert percar.extremes(np.full((2, 3), np.nan), np.arange(3.0), "N", [{}, {}]) is None
     values = np.array([[np.nan, 4.0, np.inf], [-1.0, np.nan, 4.0]])
-    told = percar.extremes(values, np.array([0.0, 0.1, 0.2]), [{"wheel": 1}, {"wheel": 2}])
+    told = percar.extremes(values, np.array([0.0, 0.1, 0.2]), "N", [{"wheel": 1}, {"wheel": 2}])
     assert told["max"] == {"value": 4.0, "t": 0.1, "wheel": 1}
     assert told["min"] == {"value": -1.0, "t": 0.0, "wheel": 2}

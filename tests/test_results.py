@@ -156,7 +156,7 @@ def test_histories_say_where_and_in_which_unit():
         (RUN.bearing_forces()[2],
          {"force_x": "N", "force_y": "N", "force_z": "N", "moment_x": "N m", "moment_y": "N m",
           "moment_z": "N m"}, "bearing 2 at x = 36, y = 0, z = 0 m"),
-        (RUN.envelope("torsion", [0.0, 4.5]).at(1), {"value": ""}, "x = 4.5 m"),
+        (RUN.envelope("torsion", [0.0, 4.5]).at(1), {"value": "N m"}, "x = 4.5 m"),
     ],
 )  # fmt: skip
 def test_what_is_asked_of_the_deck_has_units_and_a_place(history, units, where):

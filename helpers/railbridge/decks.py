@@ -35,6 +35,7 @@ from . import errors
 from .errors import InputError, Remark, ResultWarning, brief, frozen
 from .guideways import COMPONENTS, Guideway, PiecewiseCubic
 from .response import SampledModes, lagged, sampled_modes
+from .units import without_rounding
 
 __all__ = [
     "BEARING_QUANTITIES", "Deck", "EQUAL", "History", "Line", "ModesOnly", "REACTION_QUANTITIES",
@@ -233,7 +234,7 @@ class ModesOnly:
 
 @dataclass(frozen=True, eq=False)
 class History:
-    """Named time histories with units.
+    """Named time histories with units; those that are only rounding are zero.
 
     Attributes
     ----------
@@ -254,6 +255,13 @@ class History:
     units: dict[str, str]
     where: str = ""
     jumps: Callable[[str], tuple[np.ndarray, np.ndarray]] | None = field(default=None, repr=False)
+
+    def __post_init__(self) -> None:
+        values = {name: without_rounding(v, self._unit(name)) for name, v in self.values.items()}
+        object.__setattr__(self, "values", values)
+
+    def _unit(self, name: str) -> str:
+        return self.units.get(name, "")
 
     def __getitem__(self, name: str) -> np.ndarray:
         if not isinstance(name, str) or name not in self.values:
@@ -285,6 +293,7 @@ class History:
         if self.jumps is not None:
             more_time, more = self.jumps(name)
             time, values = np.concatenate([time, more_time]), np.concatenate([values, more])
+            values = without_rounding(values, self._unit(name))
         low, high = np.nanargmin(values), np.nanargmax(values)
         return tuple((float(values[i]), float(time[i])) for i in (low, high))
 

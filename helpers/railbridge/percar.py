@@ -11,6 +11,7 @@ import numpy as np
 from .decks import History
 from .errors import brief
 from .trains import Car
+from .units import without_rounding
 
 __all__ = [
     "QUANTITIES",
@@ -97,7 +98,7 @@ def _value(found: dict[str, Any] | None, side: str, on_deck: bool) -> float:
 
 
 def extremes(
-    values: np.ndarray, time: np.ndarray, places: Sequence[dict] = ({},)
+    values: np.ndarray, time: np.ndarray, unit: str, places: Sequence[dict] = ({},)
 ) -> dict[str, Any] | None:
     """Return ``min`` and ``max`` of histories, each with value, ``t`` (s) and place.
 
@@ -105,6 +106,8 @@ def extremes(
     ----------
     values : ndarray, shape (places, n), or (n,)
     time : ndarray, shape (n,)
+    unit : str
+        Of the values; see `units.without_rounding`.
     places : sequence of dict
         What is said of each place.
 
@@ -113,7 +116,7 @@ def extremes(
     dict or None
         None where no value is finite.
     """
-    values = values.reshape(len(places), -1)
+    values = without_rounding(values.reshape(len(places), -1), unit)
     finite = np.isfinite(values)
     if not finite.any():
         return None
@@ -146,7 +149,10 @@ def of_wheels(
     dict or None
         None where no value is finite.
     """
-    whole, within = (extremes(v, time, places) for v in (values, np.where(on_deck, values, np.nan)))
+    whole, within = (
+        extremes(v, time, QUANTITIES[name], places)
+        for v in (values, np.where(on_deck, values, np.nan))
+    )
     sides = _SIDES.get(name, _BOTH)
     whole, within = (
         None if found is None else {side: found[side] for side in sides}
@@ -207,7 +213,7 @@ def of_car(
     for name in ("acceleration_z", "acceleration_y"):
         own = [history for history in accelerations.values if history.endswith(name)]
         values = np.array([accelerations[history] for history in own])
-        found[name] = extremes(values, time, [_place(history) for history in own])
+        found[name] = extremes(values, time, QUANTITIES[name], [_place(h) for h in own])
     return CarExtremes(car.number, car.vehicle.name, found)
 
 

@@ -30,6 +30,7 @@ from .spectra import Spectrum, amplitude_spectrum, deviation_percent
 from .statics import MovingLoads, static_extremes
 from .tracks import Track
 from .trains import CONDENSED, AnyTrain, Car
+from .units import without_rounding
 
 __all__ = ["ENVELOPE", "Crossing", "Deviations", "Envelope"]
 
@@ -81,6 +82,8 @@ class Envelope:
     time : ndarray, shape (n,)
         s.
     values : ndarray, shape (places, n)
+        Zero where they are only rounding.
+    unit : str
     jumps : tuple of callable
         For each place times (s) and values between the samples, on both sides of what jumps;
         empty where nothing does.
@@ -91,14 +94,18 @@ class Envelope:
     x: np.ndarray
     time: np.ndarray
     values: np.ndarray = field(repr=False)
+    unit: str = ""
     jumps: tuple[Callable[[], tuple[np.ndarray, np.ndarray]], ...] = field(default=(), repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "values", without_rounding(self.values, self.unit))
 
     def at(self, place: int) -> History:
         """Return the history at one of the places, from 0, under the name ``value``."""
         own = self.jumps[place] if self.jumps else None
         jumps = None if own is None else lambda _: own()
         values = {"value": self.values[place]}
-        return History(self.time, values, {"value": ""}, f"x = {self.x[place]:g} m", jumps)
+        return History(self.time, values, {"value": self.unit}, f"x = {self.x[place]:g} m", jumps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -632,18 +639,20 @@ class Crossing:
         if quantity == "acceleration_z":
             if not deck.has["z"]:
                 return None
-            return Envelope(x, self.time, deck.shapes(x)[:, :, 1] @ self._modal_acceleration)
+            values = deck.shapes(x)[:, :, 1] @ self._modal_acceleration
+            return Envelope(x, self.time, values, "m/s2")
         lines = [deck.recovery.section(quantity, place) for place in x]
         if lines[0] is None:
             return None
+        unit = SECTION_QUANTITIES[quantity]
         if quantity in ("displacement_z", "rotation_y"):  # which never jump between two samples
-            return Envelope(x, self.time, np.array(self._displaced(lines)))
+            return Envelope(x, self.time, np.array(self._displaced(lines)), unit)
         values = [
             deck.recovered(line, state.q, state.velocity, state.modal_force, static)
             for line, static in zip(lines, self._loads.of_lines(lines), strict=True)
         ]
         jumps = tuple(partial(self._loads.at_jumps, line) for line in lines)
-        return Envelope(x, self.time, np.array(values), jumps)
+        return Envelope(x, self.time, np.array(values), unit, jumps)
 
     # ---- statics
 

@@ -10,7 +10,10 @@ import numpy as np
 
 from . import errors
 
-__all__ = ["G", "UNITS", "factor_of", "per_metre", "quantity", "spelled", "units_of", "written"]
+__all__ = [
+    "G", "ROUND_OFF", "UNITS", "factor_of", "per_metre", "quantity", "spelled", "units_of",
+    "without_rounding", "written",
+]  # fmt: skip
 
 G = 9.81
 """Acceleration of gravity, m/s2."""
@@ -60,6 +63,16 @@ UNITS: dict[str, dict[str, float]] = {
     "frequency": {"Hz": 1.0, "rad/s": 1 / (2 * math.pi)},
 }  # fmt: skip
 """Every unit by dimension, the SI unit first, with the factor that converts a number to SI."""
+
+ROUND_OFF = {
+    "m": 1e-15, "rad": 1e-15, "m/s2": 1e-12, "rad/s2": 1e-12, "m/s": 1e-13, "rad/s": 1e-13,
+    "N": 1e-6, "N m": 1e-6, "-": 1e-12,
+}  # fmt: skip
+"""What is only rounding of a response, by its SI unit.
+
+Trains weigh up to 1e8 N, of which a double keeps 1e-8 N; a single newton still moves the stiffest
+bridge by 1e-12 m.
+"""
 
 _WHOLE = {"m": 1.0, "cm": 100.0, "mm": 1000.0}
 """How many of a unit make a metre, where these are whole numbers.
@@ -116,6 +129,32 @@ def quantity(field: str, value: Any, unit: str, si_unit: str, **limits: Any) -> 
         return errors.number(field, float(raw) * family[name], unit=si_unit, **limits)
     except OverflowError:  # a whole number of more digits than a float holds
         raise errors.InputError(field, value, "must be a finite number") from None
+
+
+def without_rounding(values: np.ndarray, unit: str) -> np.ndarray:
+    """Return histories in which those that are never more than rounding are zero.
+
+    The one place that says so, for all that is told of a crossing. A history that is larger once
+    stays as it is.
+
+    Parameters
+    ----------
+    values : ndarray, shape (..., n)
+        The last axis is that of a history. NaN stays.
+    unit : str
+        SI; one that `ROUND_OFF` does not know has no rounding.
+
+    Returns
+    -------
+    ndarray
+        The given one where nothing is changed.
+    """
+    least = ROUND_OFF.get(unit)
+    if least is None or not values.size:
+        return values
+    with np.errstate(invalid="ignore"):
+        large = (np.abs(values) >= least).any(axis=-1, keepdims=True)
+    return values if large.all() else np.where(large | np.isnan(values), values, 0.0)
 
 
 def spelled(unit: str) -> str:

@@ -201,7 +201,10 @@ def test_what_a_case_may_not_hold(path, value, words):
         ({"damping": 0.03}, ["damping = 0.03", "table"]),
         ({"damping": {"alpha": -1.0}}, ["damping.alpha = -1", "at least 0 1/s"]),
         ({"damping": {"alpha": 1.0, "beta": "1 ms"}}, ["damping.beta = '1 ms'", "at least 0 s"]),
-        ({"damping": {"beta": 1e-3, "modal": 0.01}}, ["damping.beta: unknown key"]),
+        (
+            {"damping": {"beta": 1e-3, "modal": 0.01}},
+            ["damping.beta = 0.001: cannot stand beside modal"],
+        ),
         ({"damping": {}}, ["damping.ratio: is missing"]),
         ({"damping": {"per_mode": []}}, ["damping.per_mode = ", "at least one ratio"]),
         ({"damping": {"per_mode": 0.01}}, ["damping.per_mode = 0.01", "list of numbers"]),

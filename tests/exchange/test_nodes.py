@@ -119,7 +119,8 @@ ROW = {"nodes": [101, 102, 103]}
         (None, "rail", "two nodes stand at x = 0 m"),
         ({"left": LEFT}, "rail.right", "is missing. Give a left and a right row, or one row"),
         ({"left": LEFT, "rigth": RIGHT}, "rail.right", "is missing"),
-        ({"left": LEFT, "right": RIGHT, "y": 0.0}, "rail.y", "unknown key"),
+        ({"left": LEFT, "right": RIGHT, "y": 0.0}, "rail.y", "= 0.0: cannot stand beside left"),
+        ({"left": LEFT, "right": RIGHT, "x": 0.0}, "rail.x", "unknown key"),
         (
             {"left": {"y": 1.42}, "right": {"y": 3.38}},
             "rail.left",

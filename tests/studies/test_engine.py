@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import railbridge as rb
+from railbridge.cautions import transient
 from railbridge.studies import engine
 from railbridge.studies.engine import NUMBERS, Asked, Job, asked_of, respond
 from railbridge.studies.lanes import KNOWN
@@ -40,6 +41,8 @@ def test_numbers_are_those_of_the_run(case, name):
         "deviation_from_rigid": run.deviations.from_rigid[-1],
         "body_acceleration_z": np.abs(run.body_accelerations[:, :, 1]).max(),
         "iterations": 2,
+        "left_open": run.changes[1] ** 2 / (run.changes[0] - run.changes[1]),
+        "transient": transient(run),
     }
     (row,) = respond(case.deck, [job_of(case)], asked_of((), (name,)))
     assert row.numbers(asked_of((), (name,)))[name] == pytest.approx(expected[name], rel=1e-12)

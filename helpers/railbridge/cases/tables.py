@@ -192,16 +192,14 @@ def _refuse_unknown_kind(value: Any) -> Any:
     return value
 
 
+_BY_KIND = {
+    "none": LEVEL, "harmonic": HARMONIC, "table": MEASURED, "random": RANDOM, "file": RECORDED,
+    "dip": DIP, "joint": JOINT, "weld": WELD,
+}  # fmt: skip
 IRREGULARITY = Annotated[
-    switched(
-        lambda value: by_value(value, "kind", _KINDS, otherwise="harmonic"),
-        {
-            "none": LEVEL, "harmonic": HARMONIC, "table": MEASURED, "random": RANDOM,
-            "file": RECORDED, "dip": DIP, "joint": JOINT, "weld": WELD,
-        },
-    ),
+    switched(lambda value: by_value(value, "kind", _KINDS, otherwise="harmonic"), _BY_KIND),
     BeforeValidator(_refuse_unknown_kind),
-]  # fmt: skip
+]
 IRREGULARITIES = TypeAliasType(
     "IRREGULARITIES",
     Annotated[
@@ -224,6 +222,7 @@ _DIRECTION = switched(
     lambda value: by_key(value, ("left", "right"), otherwise="both"),
     {"left": RAILS, "right": RAILS, "both": IRREGULARITIES},
 )
+RAILS.siblings = _BY_KIND
 _EACH = " One irregularity, a list of them (added up), or { left, right } for rails that differ."
 TRACK = table(
     "Track",
@@ -664,6 +663,7 @@ MODES = table(
 MODAL_DECK = table(
     "ModalDeck",
     "A deck of which another program knows the modes.",
+    beside="a table of modes",
     modes=key(MODES, "Where the modes stand.", required=True),
     damping=key(DAMPING, _DAMPING + " Default: that of the file."),
     **_CARRYING,

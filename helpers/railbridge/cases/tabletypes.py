@@ -57,14 +57,21 @@ class Table(BaseModel):
     not_a_table: ClassVar[str] = ""
     """The remedy where something else than a table is given."""
 
+    beside: ClassVar[str] = ""
+    """Beside what keys of other kinds cannot stand, where no key of its own says it."""
+
+    siblings: ClassVar[Mapping[str, type[Table]]] = {}
+    """The other kinds that might stand in its place, by name; see `switched`."""
+
     @model_validator(mode="before")
     @classmethod
     def _refuse_keys(cls, value: Any) -> Any:
         if not isinstance(value, Mapping) or not all(isinstance(k, str) for k in value):
             raise InputError("", value, "must be a table of named values", cls.not_a_table)
-        known = [f.alias or name for name, f in cls.model_fields.items()]
+        known = cls.known_keys()
         for given in value:
             if given not in known:
+                cls._refuse_of_siblings(given, value)
                 allowed, remedy = cls.unknown_key or ("unknown key", did_you_mean(given, known))
                 said = value[given] if cls.unknown_key else None
                 raise InputError(written(given), said, allowed, remedy)
@@ -74,6 +81,30 @@ class Table(BaseModel):
                 raise InputError(missing, None, "is missing", f"Add {missing}")
         cls.refuse_mixture(value)
         return value
+
+    @classmethod
+    def known_keys(cls) -> list[str]:
+        """The keys of such a table."""
+        return [f.alias or name for name, f in cls.model_fields.items()]
+
+    @classmethod
+    def _refuse_of_siblings(cls, given: str, value: Mapping[str, Any]) -> None:
+        """Refuse a key that is one of another kind, and say beside what it cannot stand."""
+        owners = {name: kind for name, kind in cls.siblings.items() if given in kind.known_keys()}
+        if not owners or cls.unknown_key:
+            return
+        if "kind" in cls.known_keys():
+            if "kind" not in value:
+                return
+            allowed = f"belongs to kind = {errors.counted([repr(n) for n in owners], 4)}, "
+            allowed += f"and this is kind = {value['kind']!r}"
+            raise InputError(written(given), value[given], allowed)
+        shared = {name for kind in owners.values() for name in kind.known_keys()}
+        own = [written(name) for name in value if name in cls.known_keys() and name not in shared]
+        beside = cls.beside or (errors.counted(own, 3) if own else "")
+        if beside:
+            allowed = f"cannot stand beside {beside}"
+            raise InputError(written(given), value[given], allowed, "Remove one")
 
     @classmethod
     def refuse_mixture(cls, given: Mapping[str, Any]) -> None:
@@ -95,6 +126,7 @@ def table(
     /,
     *,
     unknown_key: tuple[str, str] | None = None,
+    beside: str = "",
     schema: dict[str, Any] | None = None,
     base: type[Table] = Table,
     **keys: Key,
@@ -107,6 +139,7 @@ def table(
     about : str
         What the table says.
     unknown_key : tuple of str, optional
+    beside : str
         See `Table`.
     schema : dict, optional
         What the JSON Schema says besides the keys: which of them exclude each other.
@@ -116,7 +149,7 @@ def table(
         See `key`, `fields_of`.
     """
     made = create_model(title, __base__=base, __doc__=about, **keys)
-    made.unknown_key = unknown_key
+    made.unknown_key, made.beside = unknown_key, beside
     made.model_config = {**made.model_config, "json_schema_extra": schema or {}}
     made.model_rebuild(force=True)
     return made
@@ -196,8 +229,16 @@ def switched(choose: Callable[[Any], str], kinds: Mapping[str, Any]) -> Any:
     choose : callable
         From the value as given to the name of its kind.
     kinds : mapping
-        Types by name.
+        Types by name. A key of one table that stands in another one is refused by what it cannot
+        stand beside.
     """
+    tables = {
+        name: kind
+        for name, kind in kinds.items()
+        if isinstance(kind, type) and issubclass(kind, Table)
+    }
+    for own in tables.values():
+        own.siblings = {name: kind for name, kind in tables.items() if kind is not own}
     tagged = tuple(Annotated[kind, Tag(_TAG + name)] for name, kind in kinds.items())
     either = Union[tagged]  # noqa: UP007 - from a tuple
     return Annotated[either, Discriminator(lambda value: _TAG + choose(value))]

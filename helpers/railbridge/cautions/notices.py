@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
+from ..coupling import left
 from ..cutoffs import counted
 from ..decks import Deck
 from ..errors import InputError, InputWarning, Remark, ResultWarning
@@ -24,11 +26,15 @@ from ..trains import AnyTrain, Train
 from .plausibility import doubts
 from .tracksindoubt import parts_of
 
-__all__ = ["ends_move", "remarks", "remarks_before", "unsettled"]
+__all__ = [
+    "SETTLED", "ends_move", "left_open", "remarks", "remarks_before", "transient", "unsettled",
+]  # fmt: skip
 
 FAR = 0.1
 """Last change of the wheel forces from which on a given number of passes stopped far from the
 end."""
+SETTLED = 0.01
+"""Share of the wheel forces' dynamic part that may be open or transient without a word."""
 GROWING = 0.01
 """Smallest change that, larger than one before it, is called a divergence."""
 BLOW = 0.02
@@ -82,31 +88,39 @@ def unsettled(run: Crossing) -> bool:
     return not (last < FAR and (last < GROWING or last < min(before)))
 
 
-def _only_modes(deck: Deck) -> list[Remark]:
-    if not deck.recovery.lacks:
-        return []
-    text = (
-        "Only modes of this deck are known: section forces, reactions and self-weight are null, "
-        "and displacements lack the static flexibility of the modes left out."
-    )
-    return [Remark("", text)]
+def left_open(run: Crossing) -> float:
+    """Return which share of the wheel forces' dynamic part further passes would still change.
+
+    Judged from how the last passes changed it, whatever the tolerance was; see `coupling.left`.
+    Infinite where a single pass tells nothing of the next; 0 where there are no passes.
+    """
+    if run.windows is not None:
+        return run.changes[-1]
+    if run.settings.interaction != "iterate" or run.iteration == 0:
+        return 0.0
+    changes = run.changes[: run.iteration]
+    if run.settings.tolerance_of == "displacement":
+        last = run.passes[: run.iteration + 1][-4:]
+        changes = [run.coupling.change(new, old) for old, new in pairwise(last)]
+    open_still = left(changes)
+    return open_still if open_still >= 0.0 else np.inf  # changes that are no numbers
 
 
-def _transient(run: Crossing) -> list[Remark]:
-    """Compare the first car's rigid-deck forces with those they should have settled to.
+def transient(run: Crossing) -> float:
+    """Return which share of the steady wheel forces is transient while the first car crosses.
 
-    While it crosses.
+    0 where that is not known: on level track, on track that is not harmonic, with flat spots.
     """
     s, train, first = run.settings, run.train, run.coupling.cars[0]
     usual = LEAD_IN_SECONDS * s.speed
     if not 0.0 < s.lead_in < usual or first.respond is None or train.notches:
-        return []
+        return 0.0
     try:
         steady = steady_forces(first.car.vehicle, run.track, s.speed, s.excitation)
     except InputError:  # level, or not harmonic: nothing to compare with
-        return []
+        return 0.0
     if not np.all(np.isfinite(steady)) or not np.any(steady):
-        return []
+        return 0.0
     if first.car.vehicle.wheelsets:
         # On stiff contacts the sampled rail alone is a per cent off the closed form, and what
         # Hertzian contacts carry more is no transient: a longer run-up shows what is left.
@@ -120,13 +134,28 @@ def _transient(run: Crossing) -> list[Remark]:
         centre = s.speed * run.time[first.window] - first.car.centre
         rigid = first.rigid[..., first.window]
         settled = (steady[..., None] * np.exp(2j * np.pi * centre / wavelength)).imag
-    left = np.linalg.norm(rigid - settled) / np.linalg.norm(settled)
-    if left <= 0.01:
+    return float(np.linalg.norm(rigid - settled) / np.linalg.norm(settled))
+
+
+def _only_modes(deck: Deck) -> list[Remark]:
+    if not deck.recovery.lacks:
         return []
     text = (
-        f"= {s.lead_in:g} m: {left:.1%} of the steady wheel forces is still transient while "
-        f"the first car crosses. Leave it out for {usual:g} m, or give 0 for level track "
-        "before the deck."
+        "Only modes of this deck are known: section forces, reactions and self-weight are null, "
+        "and displacements lack the static flexibility of the modes left out."
+    )
+    return [Remark("", text)]
+
+
+def _transient(run: Crossing) -> list[Remark]:
+    """Say how far the first car's forces on a rigid deck are from what they settle to."""
+    s, share = run.settings, transient(run)
+    if share <= SETTLED:
+        return []
+    text = (
+        f"= {s.lead_in:g} m: {share:.1%} of the steady wheel forces is still transient while "
+        f"the first car crosses. Leave it out for {LEAD_IN_SECONDS * s.speed:g} m, or give 0 for "
+        "level track before the deck."
     )
     return [InputWarning("lead_in", text)]
 

@@ -26,6 +26,7 @@ from .rules import coverage, line_gaps, rules, speed_gaps
 from .staticloads import StaticLoads
 from .structure import Structure
 from .trainclauses import TrainClauses
+from .trust import Trust
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -177,8 +178,12 @@ def assess(
     answers = rules(parts.structure, parts.questions)
     own_speeds, line_speed = found.speeds.tolist(), needs.line_speed
     answers["speeds_covered"] = coverage(answers, own_speeds, isinstance(speeds, Between))
+    stepped = {
+        name: train for name, train in found.trains.items() if not isinstance(train, AxleTrain)
+    }
+    trust = Trust.of(Options(speed=1.0, **options), deck, parts.questions.kept, stepped)
     clauses = TrainClauses(
-        parts.structure, parts.questions, parts.loads, _smooth(track, found.trains.values()),
+        parts.structure, parts.questions, parts.loads, trust, _smooth(track),
         speed_gaps(answers, own_speeds, line_speed), line_gaps(own_speeds, line_speed),
         options.get("interaction") == "rigid",
     )  # fmt: skip
@@ -242,9 +247,10 @@ def assess_run(run: Crossing, needs: Requirements) -> Verdicts:
     name = getattr(run.train, "name", "") or "train"
     cars = not isinstance(run.train, AxleTrain)
     point = Point(name, cars, run.settings.speed, row_of_run(run, asked))
+    trust = Trust.of(run.settings, run.deck, parts.questions.kept, {name: run.train}, run)
     clauses = TrainClauses(
-        parts.structure, parts.questions, parts.loads, _smooth(run.track, [run.train]),
-        unfelt=run.settings.interaction != "direct" and run.iteration == 0,
+        parts.structure, parts.questions, parts.loads, trust, _smooth(run.track),
+        unfelt=run.iteration == 0,
     )  # fmt: skip
     worst = clauses.findings(Points.of([point], asked))
     findings = [*parts.loads.findings(), *worst]
@@ -279,14 +285,14 @@ def _all_modes(options: dict[str, Any]) -> dict[str, Any]:
     return options | {"acceleration_modes": "all"}
 
 
-def _smooth(track: Track | None, trains: Any) -> bool:
-    """Whether rails are level and wheels round: then phi'' speaks for what they are not.
+def _smooth(track: Track | None) -> bool:
+    """Whether rails are level: then phi'' speaks for what they are not.
 
-    Waves sideways unload no wheel and shake no deck up and down.
+    Waves sideways unload no wheel and shake no deck up and down, and the flat spot of one wheel
+    says nothing of the rails.
     """
     track = Track() if track is None else track
-    level = all(_flat(track.rail("vertical", side)) for side in ("left", "right"))
-    return level and not any(getattr(train, "notches", ()) for train in trains)
+    return all(_flat(track.rail("vertical", side)) for side in ("left", "right"))
 
 
 def _flat(rail: Irregularity) -> bool:

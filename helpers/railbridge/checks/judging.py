@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,7 +13,7 @@ from ..codes.verdicts import NOT_MET
 from ..studies import Asked, Row
 from ..studies.outputs import Peaks
 
-__all__ = ["Finding", "Point", "Points", "finding"]
+__all__ = ["Finding", "Point", "Points", "finding", "undecided"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,3 +163,12 @@ def finding(
         said.append(f"no limit: {limit.reason}")
     words = "; ".join(part for part in said if part)
     return Finding(Verdict(limit.clause, limit.value, None, where, when, words), point, known)
+
+
+def undecided(found: Finding, why: str) -> Finding:
+    """Return a finding that decides nothing, whatever its value: with the value, and why."""
+    given, said = found.verdict, [why, found.verdict.reason]
+    if given.value is not None:
+        said.insert(0, f"{given.value:.4g} {given.clause.unit}".strip() + " as computed")
+    words = "; ".join(part for part in said if part)
+    return replace(found, verdict=replace(given, value=None, reason=words, value_clause=None))

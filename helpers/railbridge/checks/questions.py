@@ -18,7 +18,9 @@ from .structure import Span, Structure
 __all__ = ["NUMBERS", "Bearing", "Questions"]
 
 NUMBERS = ("wheel_unloading", "body_acceleration_z")
-"""What is asked of a whole crossing."""
+"""What is judged of a whole crossing."""
+_OF_TRUST = ("left_open", "transient")
+"""What says whether its numbers may decide."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,7 +155,7 @@ class Questions:
             *self.accelerations, *self.displacements, *(o for _, o in self.moments), *self.twists,
             *self.end_rotations, *(o for _, o in self.bows), *(b.output for b in self.bearings),
         ]  # fmt: skip
-        return Asked(tuple(sorted(found, key=lambda output: output.x)), NUMBERS)
+        return Asked(tuple(sorted(found, key=lambda output: output.x)), NUMBERS + _OF_TRUST)
 
     @cached_property
     def number_of(self) -> dict[int, int]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,12 +11,14 @@ from .. import codes
 from ..cautions import ends_move
 from ..codes import Answer
 from ..codes.clauses import not_above
+from ..codes.verdicts import NOT_MET
 from ..errors import counted
 from ..studies import Output
-from .judging import Finding, Point, Points, finding
+from .judging import Finding, Point, Points, finding, undecided
 from .questions import Questions
 from .staticloads import StaticLoads
 from .structure import Span, Structure
+from .trust import ACCELERATION, ALL, UNLOADING, Trust
 
 __all__ = ["TrainClauses"]
 
@@ -43,8 +45,10 @@ class TrainClauses:
     questions : Questions
     loads : StaticLoads
         The load models on the trains' track.
+    trust : Trust
+        Which crossings' numbers may decide.
     smooth : bool
-        Whether the track is level and the wheels are round.
+        Whether the rails are level, whatever the wheels are.
     gaps : tuple of str
         What the speeds leave out of a dynamic analysis.
     slow : tuple of str
@@ -56,6 +60,7 @@ class TrainClauses:
     structure: Structure
     questions: Questions
     loads: StaticLoads
+    trust: Trust
     smooth: bool = True
     gaps: tuple[str, ...] = ()
     slow: tuple[str, ...] = ()
@@ -63,11 +68,29 @@ class TrainClauses:
 
     def findings(self, points: Points) -> list[Finding]:
         """Return a verdict for each clause, the worst of some crossings."""
+        own = {self.acceleration: ACCELERATION, self.unloading: UNLOADING}
         clauses = (
             self.acceleration, self.moment, self.twist, self.total_twist, self.end_rotation,
             self.radius, self.comfort, self.unloading, self.uplift,
         )  # fmt: skip
-        return [clause(points) for clause in clauses]
+        return [self._trusted(clause, points, own.get(clause, ALL)) for clause in clauses]
+
+    def _trusted(self, clause: Callable[[Points], Finding], points: Points, judged: str) -> Finding:
+        """Return a verdict to which crossings that are not to be trusted add nothing but doubt.
+
+        What the others do not meet already is not met.
+        """
+        found, doubts = clause(points), self.trust.doubts(points, judged)
+        if not any(doubts):
+            return found
+        sure = clause(points.only([not doubt for doubt in doubts]))
+        if sure.verdict.verdict == NOT_MET:
+            return sure
+        own = [(p, doubt) for p, doubt in zip(points.points, doubts, strict=True) if doubt]
+        point, why = own[0]
+        if len(points) > 1:
+            why = f"{len(own)} of {len(points)} crossings, as {point.words}: {why}"
+        return undecided(found, why)
 
     # ---- deck
 

@@ -230,6 +230,11 @@ def node_choice(rail: NodeChoice | NodeRows | Mapping[str, Any] | None) -> NodeC
     if isinstance(rail, Mapping) and ("left" in rail or "right" in rail):
         for side in {"left", "right"}.difference(rail):
             raise InputError(side, None, "is missing", "Give a left and a right row, or one row")
+        for f in fields(NodeChoice):
+            if f.name in rail:
+                remedy = "Give it inside left and right, or one row"
+                allowed = "cannot stand beside left and right"
+                raise InputError(f.name, rail[f.name], allowed, remedy)
         return _made(NodeRows, rail)
     return _made(NodeChoice, rail)
 

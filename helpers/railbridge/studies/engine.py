@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
 from .. import errors
+from ..cautions import left_open, transient
 from ..crossing import NotConvergedError, compute
 from ..decks import Deck
 from ..errors import InputError
@@ -19,10 +21,11 @@ from ..results import Crossing
 from ..settings import Settings
 from ..tracks import Track
 from ..trains import AnyTrain, AxleTrain
+from ..units import without_rounding
 from .constant import constant_loads
 from .lanes import KNOWN, WIDTH, advance_of, eligible, run_lanes
 from .mixtures import mixture_key, run_mixtures
-from .outputs import Output, Peaks, peaks_of_run
+from .outputs import OUTPUTS, Output, Peaks, peaks_of_run
 
 __all__ = ["NUMBERS", "Asked", "Job", "Row", "asked_of", "respond", "row_of_run"]
 
@@ -53,6 +56,14 @@ NUMBERS: dict[str, tuple[str, str, Callable[[Crossing], float]]] = {
     ),
     "deviation_from_rigid": ("%", "Eq. 3 of the last pass against the rigid deck", _deviation),
     "iterations": ("-", "passes after the rigid deck", lambda run: float(run.iterations)),
+    "left_open": (
+        "-", "share of the wheel forces' dynamic part that further passes would still change",
+        left_open,
+    ),
+    "transient": (
+        "-", "share of the steady wheel forces that is transient while the first car crosses; 0 "
+        "where that is not known", transient,
+    ),
 }  # fmt: skip
 """What a study can be asked for of a whole crossing: unit, meaning, and how a run is asked."""
 
@@ -73,6 +84,12 @@ class Asked:
     outputs: tuple[Output, ...]
     numbers: tuple[str, ...] = ()
     more: Mapping[str, Callable[[Crossing], float]] = field(default_factory=dict)
+
+    @cached_property
+    def by_unit(self) -> dict[str, np.ndarray]:
+        """Which outputs are in which unit."""
+        units = np.array([OUTPUTS.get(output.quantity, "") for output in self.outputs])
+        return {str(unit): np.flatnonzero(units == unit) for unit in np.unique(units)}
 
     @property
     def width(self) -> int:
@@ -210,7 +227,7 @@ def respond(
         heaviest = max(axle.static_load for axle in train.placed_axles)
         known = {
             "wheel_unloading": 0.0, "wheel_force_z": heaviest, "body_acceleration_z": np.nan,
-            "deviation_from_rigid": 0.0, "iterations": 0.0,
+            "deviation_from_rigid": 0.0, "iterations": 0.0, "left_open": 0.0, "transient": 0.0,
         }  # fmt: skip
         numbers = np.array([known[name] for name in asked.numbers])
         for n, i in enumerate(own):
@@ -247,4 +264,14 @@ def _checked(values: np.ndarray, asked: Asked) -> Row:
     """Return a row of numbers; one that failed where extremes are not finite."""
     if not np.isfinite(values[: 4 * len(asked.outputs)]).all():
         return Row.failed(asked, "the crossing gave numbers that are not finite")
-    return Row(values)
+    return Row(_told(values, asked))
+
+
+def _told(values: np.ndarray, asked: Asked) -> np.ndarray:
+    """Return a row in which extremes that are only rounding are zero."""
+    told = values.copy()
+    peaks = told[: len(_PEAKS) * len(asked.outputs)].reshape(len(_PEAKS), -1)
+    for pair in (slice(0, 2), slice(4, 6)):  # smallest and largest value, moving and static
+        for unit, own in asked.by_unit.items():
+            peaks[pair, own] = without_rounding(peaks[pair, own].T, unit).T
+    return told
