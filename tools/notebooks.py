@@ -24,6 +24,9 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 from PIL import Image
 
+import railbridge as rb
+from railbridge.direct import has_compiler
+
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "notebooks"
 TIMEOUT = 120  # s, for one cell
@@ -171,6 +174,15 @@ def without_outputs(path):
     return any(cell.cell_type == "code" and cell.execution_count is None for cell in cells)
 
 
+def have_the_loop_compiled():
+    """So that no page waits for the compiler and tells of it."""
+    if has_compiler():
+        train = rb.Train(rb.vehicle("xia2000_planar_wheelsets"))
+        deck = rb.deck("viaduct36", rb.Rail(bending_stiffness=1.28e7, foundation=1e8))
+        for contact in ("permanent", "hertz"):
+            rb.cross(train, deck, speed=60.0, contact=contact, lead_in=0.0)
+
+
 def main(arguments):
     check = "--check" in arguments
     names = [name for name in arguments if name != "--check"]
@@ -188,6 +200,7 @@ def main(arguments):
         )
         sys.exit(bool(bare))
     os.environ.setdefault("OMP_NUM_THREADS", "1")
+    have_the_loop_compiled()
     went_well = True
     with ThreadPoolExecutor(max_workers=min(2, os.cpu_count() or 1)) as pool:
         for line, good in pool.map(store, paths):

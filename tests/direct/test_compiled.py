@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -143,3 +144,64 @@ def test_a_compiler_that_does_not_load_is_done_without(monkeypatch):
     found = rb.cross(train, DECK, TRACK, **options)
     size = np.abs(expected.state.q).max()
     assert found.state.q == pytest.approx(expected.state.q, abs=1e-12 * size)
+
+
+_OWN_FILES = (
+    "import numpy as np; from railbridge import compiled; a = np.eye(2); "
+    "compiled._make_ready(lambda: compiled._solve(2.0 * a, a, 2)); print(a[0, 0])"
+)
+
+
+@pytest.mark.parametrize("damaged", ["*.nbi", "*.nbc"])
+def test_a_cache_that_is_damaged_is_made_anew(tmp_path, damaged):
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path), "PYTHONPATH": str(HELPERS)}
+
+    def solved():
+        return subprocess.run(
+            [sys.executable, "-c", _OWN_FILES], env=environment, capture_output=True, text=True,
+            check=False,
+        )  # fmt: skip
+
+    assert solved().stdout.strip() == "0.5"
+    files = list(tmp_path.rglob(damaged))
+    assert files
+    for file in files:
+        file.write_bytes(b"garbage")
+    done = solved()
+    assert done.stdout.strip() == "0.5", done.stderr
+    # The index does not name what is damaged any more, so that the next one can keep its own.
+    assert solved().stdout.strip() == "0.5"
+    assert all(file.read_bytes() != b"garbage" for file in tmp_path.rglob("*.nbi"))
+
+
+def test_a_long_wait_for_the_compiler_is_told_of_once_and_a_short_one_is_not(monkeypatch, capsys):
+    with compiled._said():
+        pass
+    assert not capsys.readouterr().err
+    monkeypatch.setattr(compiled, "_PATIENCE", 0.01)
+    with compiled._said():
+        time.sleep(0.3)
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1 and lines[0].startswith("railbridge: compiling the loop")
+
+
+@pytest.mark.parametrize("contact", ["permanent", "hertz"])
+def test_the_loop_tells_how_far_it_is_and_can_be_stopped(contact):
+    class Stopped(Exception):
+        pass
+
+    told = []
+
+    def stop(text):
+        told.append(text)
+        if len(told) == 3:
+            raise Stopped
+
+    train = rb.Train(rb.with_wheelsets(LIGHT, mass=1500.0))
+    options = {"speed": 50.0, "contact": contact, "lead_in": 0.0, "interaction": "direct"}
+    with pytest.raises(Stopped):
+        rb.cross(train, DECK, TRACK, progress=stop, **options)
+    assert told[0] != told[1] and all(text.startswith("step ") for text in told)
+    # A loop that was stopped leaves nothing behind for the next.
+    one, other = (rb.cross(train, DECK, TRACK, **options).state.q for _ in range(2))
+    assert np.array_equal(one, other)

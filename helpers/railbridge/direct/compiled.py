@@ -2,16 +2,22 @@
 
 The same formulas in plain loops. Only what the deck needs is made at each sample: what the axles
 load it with, `L R s + L (D - 1) (K m + C m')`, whose matrices are multiplied before. Compiled code
-is kept on disk, beside this file or in the user's cache, where one of them can be written.
+is kept on disk, beside this file or in the user's cache, where one of them can be written. For
+permanent contact the loop is compiled without all that Hertzian contacts need: `_march` has None in
+place of what they are given, and numba leaves out what stands below ``is not None``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from threading import Timer
 
 import numpy as np
 from numba import njit
+from numba.core.caching import NullCache
 
 from ..errors import brief
 from .plans import CarSteps, Plan
@@ -20,6 +26,10 @@ from .stepping import MOST, TOLERANCE, Marched
 __all__ = ["march"]
 
 _OPTIONS = {"fastmath": {"contract", "reassoc"}, "error_model": "numpy"}
+_PATIENCE = 3.0
+"""s after which it is said that the loop is being compiled; to load it takes less."""
+_STRETCH = 1000
+"""Samples between two looks at whether to go on."""
 
 
 def _compiled(function: Callable) -> Callable:
@@ -71,13 +81,17 @@ class _Kinds:
     counts: np.ndarray
 
 
-def march(plan: Plan) -> Marched:
+def march(plan: Plan, progress: Callable[[str], None] | None = None) -> Marched:
     """Step train and deck together, as `stepping.march` does.
+
+    Where the loop has to be compiled first, a line on stderr says so.
 
     Parameters
     ----------
     plan : Plan
         Of cars whose modes are known.
+    progress : function of one text, optional
+        Called every thousand samples.
 
     Raises
     ------
@@ -109,23 +123,63 @@ def march(plan: Plan) -> Marched:
     component, spread = _spread(tables, kinds.loaded)
     found = np.zeros((3, plan.samples, plan.reach.shape[1]))
     more = np.zeros((cars, longest, wheels) if hertzian else (1, 1, 1))
-    settled = _march(
-        plan.first, plan.samples, plan.onward, plan.reach,
+    deck, kept = np.zeros((3, plan.reach.shape[1])), np.zeros((cars, wheels, 2))
+    of_hertz = (
+        rail, pressed, kinds.pressing, kinds.wheels, kinds.direct, kinds.given, kept, more
+    )  # fmt: skip
+    if not hertzian:
+        of_hertz = (None,) * len(of_hertz)
+    given = (
+        plan.onward, plan.reach,
         tables, at[plan.axles[:, 2]], plan.axles,
         load_tables, load_at[plan.loads[:, 2]], plan.loads, plan.of_cars, kind, plan.windows,
-        loads, rail, pressed, states,
-        kinds.decay, kinds.drive, kinds.shown, kinds.loaded, kinds.felt, kinds.pressing,
-        kinds.wheels, kinds.direct, kinds.given, kinds.counts, component, spread,
-        hertzian, found, more,
+        loads, kinds.decay, kinds.drive, kinds.shown, kinds.loaded, kinds.felt, kinds.counts,
+        component, spread, deck, states, found, *of_hertz,
     )  # fmt: skip
-    if not settled:
-        raise ArithmeticError("a contact force does not settle within a step")
+    _make_ready(lambda: _march(plan.first, plan.first, *given))
+    for start in range(plan.first, plan.samples, _STRETCH):
+        if progress is not None:
+            progress(f"step {max(start, 0)} of {plan.samples}")
+        if not _march(start, min(start + _STRETCH, plan.samples), *given):
+            raise ArithmeticError("a contact force does not settle within a step")
     q, velocity, force = (np.ascontiguousarray(own.T) for own in found)
     parted = tuple(
         np.ascontiguousarray(own[: stop - start, : len(car.direct) // 2].T)
         for own, car, (start, stop) in zip(more, plan.cars, plan.windows, strict=False)
     )
     return Marched(q, velocity, force, parted if hertzian else ())
+
+
+def _make_ready(call: Callable[[], bool]) -> None:
+    """Call a loop of no steps, so that it is loaded, or compiled, before it is needed."""
+    with _said():
+        try:
+            call()
+        except Exception:
+            # A file of the cache that is damaged, or a full disk: numba passes on whatever comes.
+            for function in (_solve, _press, _march, _rows_of, _loads_of):
+                with suppress(OSError):
+                    function._cache.flush()
+                function._cache = NullCache()
+            call()
+
+
+@contextmanager
+def _said() -> Iterator[None]:
+    """Say on stderr what is waited for, if it takes long."""
+
+    def say() -> None:
+        text = "railbridge: compiling the loop that steps train and deck together, once on this "
+        with suppress(OSError, ValueError, AttributeError):
+            print(f"{text}machine: some 10 to 30 s", file=sys.stderr, flush=True)
+
+    timer = Timer(_PATIENCE, say)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 def _joined(tables: tuple[np.ndarray, ...]) -> tuple[np.ndarray, np.ndarray]:
@@ -181,9 +235,9 @@ def _kinds(cars: list[CarSteps]) -> _Kinds:
 
 
 @_compiled
-def _solve(a, b):
-    """Solve a x = b in place, by elimination with pivots: x stands in b, shape (n, columns)."""
-    n, columns = b.shape
+def _solve(a, b, columns):
+    """Solve a x = b in place, by elimination with pivots: x stands in b, in its first columns."""
+    n = len(a)
     for i in range(n):
         best = i
         for j in range(i + 1, n):
@@ -226,7 +280,7 @@ def _press(count, linear, answer, contacts, memory, p):
             inverse[i, j] = 1.0 if i == j else 0.0
             matrix[i, j] = answer[i, j]
         inverse[i, count] = linear[i]
-    _solve(matrix, inverse)
+    _solve(matrix, inverse, count + 1)
     for i in range(count):
         load, depth, damping, decay, before, beta = contacts[i]
         alpha = decay * memory[i, 0] + before * memory[i, 1]
@@ -261,7 +315,7 @@ def _press(count, linear, answer, contacts, memory, p):
                 step[i, 0] += opening * force[j, 0]
                 matrix[i, j] = opening * tangent[j]
             matrix[i, i] += 1.0
-        _solve(matrix, step)
+        _solve(matrix, step, 1)
         settled = True
         for i in range(count):
             d[i, 0] -= step[i, 0]
@@ -271,19 +325,26 @@ def _press(count, linear, answer, contacts, memory, p):
 
 @_compiled
 def _march(
-    first, samples, onward, reach,
+    first, stop, onward, reach,
     tables, at, axles, load_tables, load_at, loads_of,
-    of_cars, kind, windows, known, rail, pressed, states,
-    decay, drive, shown, loaded, felt, pressing, wheels, direct, given, counts, component, spread,
-    hertzian, found, more,
+    of_cars, kind, windows, known,
+    decay, drive, shown, loaded, felt, counts, component, spread,
+    deck, states, found,
+    rail, pressed, pressing, wheels, direct, given, kept, more,
 ):  # fmt: skip
-    """Run the loop of `stepping.march`; return whether all contacts settled."""
+    """Run the loop of `stepping.march` from a sample to before another.
+
+    Returns whether all contacts settled. `deck`, `states` and `kept` hold what goes on from sample
+    to sample; all from `rail` on is None where the contact is permanent.
+    """
     modes, cars = reach.shape[1], len(kind)
     rows, size, d = shown.shape[2], decay.shape[2], drive.shape[3]
     places = loaded.shape[3]
-    most = cars * counts.max() if hertzian else 0
-    q, velocity = np.zeros(modes), np.zeros(modes)
-    force, ahead, rate = np.zeros(modes), np.zeros(modes), np.zeros(modes)
+    most = 0
+    if rail is not None:
+        most = cars * counts.max()
+    q, velocity, force = deck[0], deck[1], deck[2]
+    ahead, rate = np.zeros(modes), np.zeros(modes)
     # Of every car on the deck, so that they are there when the deck's forces are known.
     shapes = np.zeros((cars, places, modes))
     slopes = np.zeros((cars, places, modes))
@@ -296,11 +357,10 @@ def _march(
     coupled, right = np.zeros((modes, modes)), np.zeros((modes, 1 + most))
     linear, answer, p = np.zeros(most), np.zeros((most, most)), np.zeros(most)
     contacts, memory = np.zeros((most, 6)), np.zeros((most, 2))
-    kept = np.zeros((cars, direct.shape[1], 2))
     per_wheel = np.zeros((most, modes))
     here_at = np.full(cars, first - 1)  # when each was last on the deck
     low = 0
-    for k in range(first, samples):
+    for k in range(first, stop):
         while low < cars and windows[low, 1] <= k:
             low += 1
         free = 1.0 if k > 0 else 0.0
@@ -334,7 +394,7 @@ def _march(
                         value += shapes[c, i, m] * ahead[m]
                         climb += slopes[c, i, m] * ahead[m] + shapes[c, i, m] * rate[m]
                 moved[i], moving[i] = value, climb
-            if hertzian:
+            if rail is not None:
                 for i in range(d):
                     value = rail[c, now, i]
                     for j in range(places):
@@ -387,7 +447,7 @@ def _march(
                 for m in range(modes):
                     own_motion[i, m] = of_motion[3 * i + component[m], m]
                     own_rate[i, m] = of_rate[3 * i + component[m], m]
-            if hertzian:
+            if rail is not None:
                 for w in range(count):
                     column = columns + w
                     for m in range(modes):
@@ -419,8 +479,8 @@ def _march(
                         for m in range(modes):
                             coupled[j, m] -= factor * per[r, m]
         if on:
-            _solve(coupled, right[:, :columns])
-        if hertzian and on:
+            _solve(coupled, right, columns)
+        if rail is not None and on:
             for w in range(columns - 1):
                 for i in range(columns - 1):
                     answer[w, i] = 0.0
@@ -468,11 +528,13 @@ def _march(
                     climb += slopes[c, i, m] * q[m] + shapes[c, i, m] * velocity[m]
                 moved[i], moving[i] = value, climb
             for i in range(d):
-                value = rail[c, k - windows[c, 0], i] if hertzian else 0.0
+                value = 0.0
+                if rail is not None:
+                    value = rail[c, k - windows[c, 0], i]
                 for j in range(places):
                     value += felt[0, n, i, j] * moved[j] + felt[1, n, i, j] * moving[j]
                 u[i] = value
-            if hertzian:
+            if rail is not None:
                 for w in range(counts[n]):
                     u[2 * w + 1] += more[c, k - windows[c, 0], w]
             for i in range(size):

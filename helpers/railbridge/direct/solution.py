@@ -60,7 +60,7 @@ def solve_directly(
     track : Track
         That of the coupling.
     progress : function of one text, optional
-        Called now and then; not while the compiled loop runs.
+        Called now and then; not while the loop is compiled, which a line on stderr tells of.
 
     Raises
     ------
@@ -108,9 +108,7 @@ def _marched(steps: Plan, progress: Callable[[str], None] | None) -> Marched:
             from . import compiled
         except ImportError:  # a compiler that does not go with this NumPy
             return march(steps, progress)
-        if progress is not None:
-            progress("the compiled loop runs (the first time it is compiled, for some seconds)")
-        return compiled.march(steps)
+        return compiled.march(steps, progress)
     return march(steps, progress)
 
 
