@@ -147,7 +147,7 @@ def test_a_compiler_that_does_not_load_is_done_without(monkeypatch):
 
 
 _OWN_FILES = (
-    "import numpy as np; from railbridge import compiled; a = np.eye(2); "
+    "import numpy as np; from railbridge.direct import compiled; a = np.eye(2); "
     "compiled._make_ready(lambda: compiled._solve(2.0 * a, a, 2)); print(a[0, 0])"
 )
 
