@@ -73,8 +73,9 @@ PAGES = {
     "11": Page(words=(500, 2000), code_lines=(40, 180)),
     # The other program that the page needs is written out on it.
     "12": Page(code_lines=(40, 170)),
-    # Three subjects: wheels with mass, rails, contacts that part.
-    "13": Page(code_lines=(40, 145)),
+    # Four subjects, each with its picture and its limits in numbers: mass of wheels, rails, the
+    # spring of the contact, wheels that lift.
+    "13": Page(words=(500, 2000), code_lines=(40, 190)),
     # Two models, and how the box behind them was found.
     "14": Page(words=(500, 1900), code_lines=(40, 160)),
 }

@@ -191,3 +191,26 @@ def test_gauge_moves_nothing_on_massless_axles_and_takes_no_time(train, deck):
     (own,) = alone.histories.values()
     assert own.waves.shape == (1, len(own.time), 4)
     assert not own.waves.any()
+
+
+def test_hills_of_an_axle_force_are_bounce_and_pitch_of_its_bogie():
+    """What Figure 10.6 of the notebooks is said to show: at 11 m bounce, at 6.5 m pitch, and at
+    8.4 m the two cancel at the first axle of a bogie and add at the second."""
+    car, speed = rb.vehicle("xia2000_planar"), 80.0
+    delays = np.array([wheel.delay for wheel in rb.Train(car).wheels])
+
+    def parts(wavelength):
+        stiffness = car.transfer(speed / wavelength)[:, 1, :, 1]
+        met = np.exp(-2j * np.pi * delays / wavelength)
+        together = met.reshape(2, 2).mean(axis=1).repeat(2)  # axles of a bogie
+        return (np.abs(stiffness @ r)[:2] for r in (together, met - together, met))
+
+    bounce, pitch, _ = parts(11.0)
+    assert np.all(bounce > 2 * pitch)
+    bounce, pitch, _ = parts(6.5)
+    assert np.all(pitch > 4 * bounce)
+    bounce, pitch, both = parts(8.44)
+    assert both[0] < 0.15 * (bounce + pitch)[0] and both[1] > 0.95 * (bounce + pitch)[1]
+    Omega = 2 * np.pi / np.array([11.0, 8.44, 6.5])
+    hill, dip, higher = abs(wave_forces(car, Omega, "vertical", speed, 1e-3)[1])
+    assert dip < 0.6 * hill < 0.6 * higher

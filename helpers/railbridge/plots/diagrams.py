@@ -360,6 +360,41 @@ def _random() -> Drawing:
     return d
 
 
+def _contact() -> Drawing:
+    d = Drawing(900, 260, "A wheelset between its bogie and a rail on a bed; the end of a deck.")
+    x, rail, still = 220, 156, 208
+    d.box(x - 90, 24, 180, 16)
+    d.text(x - 146, 37, "bogie")
+    d.spring(x - 14, 40, 72)
+    d.damper(x + 14, 40, 72)
+    d.text(x + 36, 62, "k_t, c_t")
+    d.circle(x, 98, 26)
+    d.text(x, 103, "m_w", anchor="middle")
+    d.spring(x, 124, rail, half=9)
+    d.text(x + 36, 146, "k_H")
+    sag = [(40 + 6 * i, rail + 12 / (1 + ((40 + 6 * i - x) / 60) ** 4)) for i in range(61)]
+    d.line(*sag, colour=MOVES, width=3.2)
+    d.text(404, rail + 2, "*E* I_r", colour=MOVES)
+    for at in range(58, 400, 36):
+        d.spring(at, rail + 12 / (1 + ((at - x) / 60) ** 4), still, half=4)
+    d.text(404, rail + 38, "k_r")
+    d.ground([(40, still), (400, still)])
+    d.text(x, still + 36, "weight, spring, rail on a bed", anchor="middle")
+    end, level = 740, 110
+    d.line((end, level), (890, level), dashed=True)
+    d.line((end, level), (890, level - 45), width=1.0, dashed=True)
+    d.line((530, level + 63), (end, level), colour=MOVES, width=3.2)
+    d.ground([(end, level), (890, level)])
+    d.text(end + 92, level - 10, "*\u03d1*")
+    d.circle(end - 66, level - 9, 26)
+    d.arrow((end - 40, level - 44), (end + 40, level - 44))
+    d.text(end + 46, level - 40, "*V*")
+    _bearing(d, end - 4, level + 4, moves=True)
+    d.text(560, level + 82, "deck", colour=MOVES)
+    d.text(end - 20, still + 36, "the end of a deck, without a rail", anchor="middle")
+    return d
+
+
 DIAGRAMS: dict[str, Callable[[], Drawing]] = {
     "vehicle": _vehicle,
     "track": _track,
@@ -370,5 +405,6 @@ DIAGRAMS: dict[str, Callable[[], Drawing]] = {
     "condensed": _condensed,
     "exchange": _exchange,
     "random": _random,
+    "contact": _contact,
 }
 """The diagrams by name."""
