@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import fields
 from typing import get_type_hints
 
-from .coupling import Coupling, grows, iterate, prepare
+from .coupling import Coupling, FixedPoint, grows, iterate, prepare
 from .decks import Deck
 from .direct import solve_directly
 from .errors import InputError, Remark
@@ -17,7 +17,7 @@ from .results import Crossing
 from .settings import Options, Settings, check
 from .tracks import Track
 from .trains import AnyTrain
-from .windows import in_windows
+from .windows import FEW, in_windows
 
 __all__ = ["NotConvergedError", "compute", "cross", "warn_of"]
 
@@ -161,8 +161,7 @@ def compute(
             train, deck, track, settings, passes, (), None, 1, found.coupling, {1: found.state}
         )
     found = iterate(coupling, progress)
-    given = settings.iterations is not None or settings.relaxation is not None
-    if not (found.converged or given) and grows(found.changes):
+    if _needs_windows(found, settings):
         return _in_windows(train, deck, track, settings, coupling, progress)
     run = Crossing(
         train, deck, track, settings, found.passes, found.changes, found.converged,
@@ -173,6 +172,16 @@ def compute(
     return run
 
 
+def _needs_windows(found: FixedPoint, settings: Settings) -> bool:
+    """Whether passes over the whole record have grown, or were many and yet too few.
+
+    Who gives a number of passes or a relaxation, or allows a few passes only, means them.
+    """
+    if found.converged or settings.iterations is not None or settings.relaxation is not None:
+        return False
+    return grows(found.changes) or settings.max_iterations > FEW
+
+
 def _in_windows(
     train: AnyTrain,
     deck: Deck,
@@ -181,7 +190,7 @@ def _in_windows(
     coupling: Coupling,
     progress: Callable[[str], None] | None,
 ) -> Crossing:
-    """Compute a crossing whose passes over the whole record grow."""
+    """Compute a crossing whose passes over the whole record grow or fall too slowly."""
     found = in_windows(coupling, progress)
     passes = coupling.nothing_added(), coupling.train_pass(found.state)
     changes = (float(found.changes.max()),)

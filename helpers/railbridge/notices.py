@@ -203,7 +203,7 @@ def _solved_otherwise(run: Crossing) -> list[Remark]:
     """Say where another way was taken than the fixed point over the whole record."""
     if run.windows is not None:
         passes = run.windows.passes
-        text = "The changes of the passes grew over the whole record, so it was cut into "
+        text = "The passes did not settle over the whole record, so it was cut into "
         text += f"{len(passes)} windows in time"
         stepped = int(np.sum(passes == 1))
         if stepped < len(passes):

@@ -92,7 +92,9 @@ class Options:
         displacements only: 1e-4 takes a fifth to a third of the passes, but tells little of wheel
         forces and accelerations.
     max_iterations : int
-        Most iterations; more is an error, with what was computed so far.
+        Most passes over the whole record. What has not settled then, or grows before, is found in
+        windows of time, each of which may take as many. With 9 or fewer allowed, or a relaxation
+        given, it is an error instead, with what was computed so far.
     iterations : int, optional
         Exactly this many, converged or not (the paper did four).
     relaxation : float or "aitken", optional
