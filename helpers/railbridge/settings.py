@@ -103,7 +103,8 @@ class Options:
     contact : {"permanent", "hertz"}
         Wheels and rails hold together, by springs; or wheels with mass press on the rails as
         Hertz's theory has it, by a force that grows with the power 3/2 of the depth and is nothing
-        where they part. The springs of the contacts are its tangents at the static loads.
+        where they part. The springs of the contacts are its tangents at the static loads. Sideways
+        these springs stay, also on a wheel that has left the rail.
     excitation : {"wheels", "car"}
         Every wheel meets the track at its own place, or all wheels of a car in phase (a guess at
         the paper's reading).
