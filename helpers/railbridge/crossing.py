@@ -9,9 +9,9 @@ from dataclasses import fields
 from typing import get_type_hints
 
 from .cautions import remarks
-from .coupling import Coupling, grows, iterate, prepare
+from .coupling import Coupling, FixedPoint, grows, iterate, prepare
 from .decks import Deck
-from .direct import in_windows, solve_directly
+from .direct import FEW, in_windows, solve_directly
 from .errors import InputError, Remark
 from .results import Crossing
 from .settings import Options, Settings, check
@@ -160,8 +160,7 @@ def compute(
             train, deck, track, settings, passes, (), None, 1, found.coupling, {1: found.state}
         )
     found = iterate(coupling, progress)
-    given = settings.iterations is not None or settings.relaxation is not None
-    if not (found.converged or given) and grows(found.changes):
+    if _needs_windows(found, settings):
         return _in_windows(train, deck, track, settings, coupling, progress)
     run = Crossing(
         train, deck, track, settings, found.passes, found.changes, found.converged,
@@ -172,6 +171,16 @@ def compute(
     return run
 
 
+def _needs_windows(found: FixedPoint, settings: Settings) -> bool:
+    """Whether passes over the whole record have grown, or were many and yet too few.
+
+    Who gives a number of passes or a relaxation, or allows a few passes only, means them.
+    """
+    if found.converged or settings.iterations is not None or settings.relaxation is not None:
+        return False
+    return grows(found.changes) or settings.max_iterations > FEW
+
+
 def _in_windows(
     train: AnyTrain,
     deck: Deck,
@@ -180,7 +189,7 @@ def _in_windows(
     coupling: Coupling,
     progress: Callable[[str], None] | None,
 ) -> Crossing:
-    """Compute a crossing whose passes over the whole record grow."""
+    """Compute a crossing whose passes over the whole record grow or fall too slowly."""
     found = in_windows(coupling, progress)
     passes = coupling.nothing_added(), coupling.train_pass(found.state)
     changes = (float(found.changes.max()),)

@@ -136,7 +136,7 @@ class Crossing:
         The deck's state by iteration, as far as it is known; shared by what `at` returns.
     windows : Windows or None
         The windows in time in which the fixed point was found, where passes over the whole record
-        grew; iteration 1 is then the fixed point.
+        did not settle; iteration 1 is then the fixed point.
     couplings : dict of Coupling
         With Hertzian contacts those of the iterations asked for; shared by what `at` returns.
     """

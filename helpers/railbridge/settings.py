@@ -92,7 +92,9 @@ class Options:
         displacements only: 1e-4 takes a fifth to a third of the passes, but tells little of wheel
         forces and accelerations.
     max_iterations : int
-        Most iterations; more is an error, with what was computed so far.
+        Most passes over the whole record. What has not settled then, or grows before, is found in
+        windows of time, each of which may take as many. With 9 or fewer allowed, or a relaxation
+        given, it is an error instead, with what was computed so far.
     iterations : int, optional
         Exactly this many, converged or not (the paper did four).
     relaxation : float or "aitken", optional
@@ -101,7 +103,8 @@ class Options:
     contact : {"permanent", "hertz"}
         Wheels and rails hold together, by springs; or wheels with mass press on the rails as
         Hertz's theory has it, by a force that grows with the power 3/2 of the depth and is nothing
-        where they part. The springs of the contacts are its tangents at the static loads.
+        where they part. The springs of the contacts are its tangents at the static loads. Sideways
+        these springs stay, also on a wheel that has left the rail.
     excitation : {"wheels", "car"}
         Every wheel meets the track at its own place, or all wheels of a car in phase (a guess at
         the paper's reading).

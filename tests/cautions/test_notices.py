@@ -177,6 +177,39 @@ def test_a_wheel_that_leaves_the_rail_is_named_with_place_and_time():
     assert text.endswith("it would lift off, which contact = 'hertz' computes.")
 
 
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+@pytest.mark.parametrize("damping", [0.0, 1e5])
+def test_a_wheel_that_bounces_without_a_damper_is_doubted(damping):
+    """A flat: later blows of an undamped contact double and halve with the time step."""
+    car = rb.with_wheelsets(rb.planar_car(CAR), mass=1800.0, contact_damping=damping)
+    flat = rb.Notch(((1, 1),), circumference=2.89, offset=9.0, depth=1e-3, length=0.05)
+    options = {"speed": 20.0, "lead_in": 0.0, "tail": 0.0, "contact": "hertz"}
+    blows = []
+    for step in (1.25e-4, 1e-4, 8e-5):
+        run = rb.cross(rb.Train(car, notches=(flat,)), DECK, time_step=step, **options)
+        force = -run.wheel_forces[0, 1]
+        blows.append((force[20.0 * run.time < 9.1].max(), force.max()))
+        (text,) = (t for t in said(run) if "leaves the rail" in t)
+        assert ("has no damper" in text) == (damping == 0.0)
+    first, last = np.transpose(blows)
+    assert first.max() < 1.05 * first.min()
+    assert (last.max() > 1.1 * last.min()) == (damping == 0.0)
+
+
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+def test_lateral_forces_of_wheels_off_the_rail_are_doubted():
+    car = rb.with_wheelsets(CAR, mass=1800.0, roll_inertia=900.0, contact_damping=5e4)
+    flat = rb.Notch(((1, 1),), circumference=2.89, offset=9.0, depth=1e-3, length=0.05)
+    options = {"speed": 20.0, "lead_in": 30.0, "tail": 0.0, "contact": "hertz"}
+    for lateral in (2e-3, 0.0):
+        track = rb.Track(lateral=rb.Harmonic(lateral, wavelength=14.4))
+        run = rb.cross(rb.Train(car, notches=(flat,)), DECK, track, **options)
+        held = np.abs(run.wheel_forces[:, 0][run.parted]).max() / 1e3
+        (text,) = (t for t in said(run) if "leaves the rail" in t)
+        assert ("Sideways the springs" in text) == (lateral > 0.0)
+        assert (f"by up to {held:.3g} kN" in text) == (lateral > 0.0)
+
+
 def test_the_way_that_auto_took_is_told():
     level = {"speed": 60.0, "lead_in": 0.0, "tail": 0.1}
     run = rb.cross(rb.Train(WHEELED), DECK, **level)

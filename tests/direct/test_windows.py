@@ -68,6 +68,22 @@ def test_what_settles_over_the_whole_record_is_left_alone():
     assert np.max(np.abs(found.state.q - run.state.q)) < 1e-8 * np.max(np.abs(run.state.q))
 
 
+@pytest.mark.parametrize("tolerance_of", ["forces", "displacement"])
+def test_what_settles_too_slowly_is_cut_into_windows_too(tolerance_of):
+    """Passes that fall all the way, and are not at their end when as many as allowed are done."""
+    train, deck = rb.Train(CAR, cars=4), light(8e3)
+    options = {"tolerance_of": tolerance_of, "tolerance": 1e-10}
+    assert solved(train, deck, "iterate", **options).iterations > 12
+    run = solved(train, deck, "iterate", max_iterations=10, **options)
+    assert run.converged and run.windows is not None
+    assert apart(run, solved(train, deck, "direct")) < 1e-8
+    (remark,) = [str(r) for r in rb.notices.remarks(run) if "windows" in str(r)]
+    assert "did not settle over the whole record" in remark
+    # Who allows only a few passes means them.
+    with pytest.raises(rb.NotConvergedError):
+        solved(train, deck, "iterate", max_iterations=9, **options)
+
+
 def test_given_passes_and_relaxation_stay_what_they_are():
     train, deck = rb.Train(CAR, cars=4), light(2e3)
     assert solved(train, deck, "iterate", iterations=6).windows is None

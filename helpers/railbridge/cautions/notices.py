@@ -39,6 +39,9 @@ GROWING = 0.01
 """Smallest change that, larger than one before it, is called a divergence."""
 BLOW = 0.02
 """Share of the static wheel force from which on a blow at the deck's ends is told of."""
+HELD = 0.005
+"""Share of the static wheel force from which on the lateral force of a wheel off the rail is told
+of."""
 _STILL = 1e-3
 """Motion of a deck's end, share of its largest, below which it is at rest."""
 
@@ -234,7 +237,7 @@ def _solved_otherwise(run: Crossing) -> list[Remark]:
     """Say where another way was taken than the fixed point over the whole record."""
     if run.windows is not None:
         passes = run.windows.passes
-        text = "The changes of the passes grew over the whole record, so it was cut into "
+        text = "The passes did not settle over the whole record, so it was cut into "
         text += f"{len(passes)} windows in time"
         stepped = int(np.sum(passes == 1))
         if stepped < len(passes):
@@ -270,6 +273,18 @@ def _parted(run: Crossing) -> list[Remark]:
         + f"; {others} other wheel{'s' * (others > 1)} too, not longer" * bool(others)
         + "."
     )
+    contact = run.train.car(wheel.car).vehicle.contact_damping[wheel.number - 1]
+    if not contact[1]:
+        text += (
+            " Its contact has no damper, so it bounces on, and what it strikes later hangs on the "
+            "time step: give contact_damping."
+        )
+    held = np.abs(run.wheel_forces[:, 0] * off).max()
+    if held > HELD * wheel.static_load:
+        text += (
+            " Sideways the springs of the contacts hold on to wheels off the rail, here by up to "
+            f"{held / 1e3:.3g} kN, which no rail does."
+        )
     return [ResultWarning("", text)]
 
 

@@ -3,9 +3,9 @@
 from .plans import CarSteps, Plan, plan
 from .solution import Direct, has_compiler, on_rigid_deck, solve_directly
 from .stepping import march
-from .windows import Windows, in_windows
+from .windows import FEW, Windows, in_windows
 
 __all__ = [
-    "CarSteps", "Direct", "Plan", "Windows", "has_compiler", "in_windows", "march",
+    "CarSteps", "Direct", "FEW", "Plan", "Windows", "has_compiler", "in_windows", "march",
     "on_rigid_deck", "plan", "solve_directly",
 ]  # fmt: skip

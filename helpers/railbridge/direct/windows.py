@@ -1,11 +1,12 @@
 r"""The fixed point in windows of time, for what does not settle over the whole record.
 
 On a finite record with a smooth answer the passes settle in the end, like ``(c T)^n / n!`` after n
-of them over a time T; before, they may grow beyond all numbers. Over a short window there is no
-such growth. So the record is cut into windows, each is iterated until it has settled, and hands on
-where train and deck then stand. Where the changes do not fall the window is halved; where they fall
-fast the next one is twice as long. A window that would be too short to be worth it is stepped
-through, train and deck solved together at every sample, so that there is always an end.
+of them over a time T; before, they may grow beyond all numbers, or fall more slowly than passes are
+allowed. Over a short window there is neither. So the record is cut into windows, each is iterated
+until it has settled, and hands on where train and deck then stand. Where the changes do not fall
+the window is halved; where they fall fast the next one is twice as long. A window that would be too
+short to be worth it is stepped through, train and deck solved together at every sample, so that
+there is always an end.
 """
 
 from __future__ import annotations
@@ -20,12 +21,12 @@ from ..errors import brief, frozen
 from .plans import Plan, plan
 from .stepping import handed_on, step
 
-__all__ = ["Windows", "in_windows"]
+__all__ = ["FEW", "Windows", "in_windows"]
 
 SHORTEST, FIRST, LONGEST = 48, 256, 4096
 """Samples of the shortest window, of the first, and of the longest."""
 FEW = 9
-"""Passes up to which the next window is longer."""
+"""Passes up to which the next window is longer; who allows no more asks for no windows."""
 STILL = 1e-4
 """Dynamic part of a wheel force below which it is measured by this, share of the static force."""
 SLOW = 0.5
