@@ -450,6 +450,46 @@ def test_on_a_bed_a_train_comes_smoothly_onto_ends_that_move():
     assert found["bed"] == pytest.approx(np.abs(rigid).max(), rel=0.05)
 
 
+@pytest.mark.parametrize("modes", [10, 20, 40])
+def test_an_axle_that_steps_onto_a_moving_end_throws_it_with_every_mode(modes):
+    """At that instant mode m of unit mass is pushed by P phi_m(0): without a rail the end's
+    acceleration is P times the sum of phi_m^2(0), which grows with each mode."""
+    damping, load = rb.rayleigh(0.03, (3.307, 16.3)), 1.464e5
+    deck = elastic().recovery.beam.deck(modes, damping)
+    with pytest.warns(rb.ResultWarning):
+        run = rb.cross(rb.AxleTrain([0.0], [load]), deck, speed=20.0, lead_in=0.0)
+    thrown = load * np.sum(deck.shapes(np.array([0.0]))[0, :, 1] ** 2)
+    assert np.abs(run.envelope("acceleration_z").values).max() == pytest.approx(thrown, rel=1e-6)
+
+
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+@pytest.mark.parametrize(
+    ("length", "mass", "first"), [(36.0, 12e3, 3.307), (20.0, 10e3, 6.0), (10.0, 8e3, 12.0)]
+)
+@pytest.mark.parametrize("speed", [20.0, 80.0])
+def test_a_rail_changes_sag_and_moment_of_plain_spans_by_two_per_cent_at_most(
+    length, mass, first, speed
+):
+    """The last table of notebook 13; accelerations it makes smaller, on 10 m many times."""
+    content = {
+        "length": length,
+        "mass": mass,
+        "modes": 10,
+        "bending_stiffness_vertical": mass * (2 * np.pi * first) ** 2 * (length / np.pi) ** 4,
+        "damping": {"ratio": 0.03, "frequencies_hz": [first, 5 * first]},
+    }
+    deck, train = rb.deck_from_table("plain", content), rb.Train(rb.vehicle("xia2000_planar"))
+    found = []
+    for rail in (None, BED):
+        run = rb.cross(train, replace(deck, rail=rail), speed=speed, lead_in=0.0)
+        sag = run.displacement(length / 2).extreme("displacement_z")[0]
+        moment = run.section_forces(length / 2).extreme("moment_vertical")[0]
+        found.append((sag, moment, np.abs(run.envelope("acceleration_z").values).max()))
+    bare, laid = np.array(found)
+    assert laid[:2] == pytest.approx(bare[:2], rel=0.02)
+    assert bare[2] / 9 < laid[2] < bare[2]
+
+
 def test_a_moving_end_is_remarked_on_unless_the_rail_lies_on_a_bed():
     train = rb.AxleTrain([0.0], [1e5])
 

@@ -96,6 +96,49 @@ def test_the_mass_shows_where_static_wheelsets_are_said_to_be_wrong():
         assert 100 * pressed(rolling, f) / pressed(CAR, f) - 100 == pytest.approx(percent, abs=0.6)
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "least", "most"),
+    [
+        (0.5, 2.0, 0.925, 1.165),
+        (4.0, 6.0, 1.5, 2.5),
+        (10.0, 14.0, 0.75, 1.65),
+        (20.0, 30.0, 2.3, 7.0),
+    ],
+)
+def test_how_much_mass_adds_to_the_swing_of_the_worst_axle(low, high, least, most):
+    """What notebook 13 says of the frequency V / wavelength, with true delays, at all speeds."""
+    car = rb.vehicle("xia2000_planar")
+    rolling = with_wheelsets(car, mass=1800.0, contact_damping=100e3)
+
+    def swing(car, speed, f):
+        track = rb.Track(vertical=rb.Harmonic(1e-3, speed / f))
+        return np.abs(rb.steady_forces(car, track, speed)[:, 1]).max()
+
+    for speed in (20.0, 35.0, 50.0, 80.0, 100.0):
+        for f in np.geomspace(low, high, 25):
+            assert least < swing(rolling, speed, f) / swing(car, speed, f) < most
+
+
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+@pytest.mark.parametrize(
+    ("speed", "wave", "size"),
+    [(80.0, 3.0, 3.3e-3), (80.0, 14.0, 5e-3), (60.0, 3.0, 5e-3), (20.0, 5.0, 5e-3)],
+)
+def test_mass_of_wheels_changes_a_sag_by_five_per_cent_while_no_axle_lifts(speed, wave, size):
+    car, rail = rb.vehicle("xia2000_planar"), rb.Rail(bending_stiffness=1.28e7, foundation=1e8)
+    deck = replace(rb.deck("viaduct36"), rail=rail)
+    track = rb.Track(vertical=rb.Harmonic(size, wave))
+    found = []
+    for each in (
+        replace(car, static_wheelset_mass=1800.0),
+        with_wheelsets(car, mass=1800.0, contact_damping=100e3),
+    ):
+        run = rb.cross(rb.Train(each), deck, track, speed=speed, lead_in=2 * speed)
+        found.append(run.displacement(18.0).extreme("displacement_z")[0])
+    assert run.wheel_forces[:, 1].max() < 0
+    assert found[1] == pytest.approx(found[0], rel=0.055)
+
+
 def test_the_contact_is_hertz_s_at_the_load_of_the_axle():
     body = replace(CAR.bodies[0], position=(0.8, 0.0, 1.41))
     ahead = replace(CAR, bodies=(body, *CAR.bodies[1:]))  # more on the front axles

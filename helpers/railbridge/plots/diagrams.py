@@ -379,7 +379,7 @@ def _contact() -> Drawing:
         d.spring(at, rail + 12 / (1 + ((at - x) / 60) ** 4), still, half=4)
     d.text(404, rail + 38, "k_r")
     d.ground([(40, still), (400, still)])
-    d.text(x, still + 36, "weight, spring, rail on a bed", anchor="middle")
+    d.text(x, still + 36, "mass, contact, rail on a bed", anchor="middle")
     end, level = 740, 110
     d.line((end, level), (890, level), dashed=True)
     d.line((end, level), (890, level - 45), width=1.0, dashed=True)
