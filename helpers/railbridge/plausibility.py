@@ -36,7 +36,7 @@ from .vehicles import Body, Vehicle
 
 __all__ = [
     "UNUSUAL", "damping_constants", "damping_frequencies", "doubts", "first_vertical",
-    "longest_span", "parts_of", "scale_in_doubt",
+    "longest_span", "parts_of", "scale_in_doubt", "track_doubts",
 ]  # fmt: skip
 
 UNUSUAL = "modes.unusual", "= true: a first frequency beyond those of bridges is accepted."
@@ -64,11 +64,16 @@ def doubts(
     scale = [] if _explained(deck) else _scale(deck, signs)
     of_train = _of_train(train)
     found = [*scale, *_damping(deck, signs, bool(scale)), *_places(deck), *of_train]
-    found += _off_axis(deck, settings) + _of_track(track) + _on_one_rail(train, track)
+    found += _off_axis(deck, settings) + track_doubts(train, track)
     found += _speed(train, settings.speed)
     if not (scale or of_train or _explained(deck)):
         found += _live_sag(train, deck, signs.span)
     return tuple(found)
+
+
+def track_doubts(train: AnyTrain, track: Track) -> list[InputWarning]:
+    """Return what of it is about the track; see `doubts`."""
+    return _of_track(track) + _on_one_rail(train, track)
 
 
 # ---- what a deck shows of its scale
