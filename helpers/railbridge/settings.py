@@ -17,8 +17,8 @@ from .trains import AnyTrain, AxleTrain, Car, Passage
 
 __all__ = [
     "COARSE_SAMPLES_PER_CONTACT", "COARSE_SAMPLES_PER_PERIOD", "LEAD_IN_SECONDS", "MEMORY_LIMIT",
-    "Options", "Settings", "bytes_needed", "check", "contact_frequency", "default_time_step",
-    "highest_frequency", "refuse_bytes",
+    "Options", "Settings", "accelerations_up_to", "bytes_needed", "check", "contact_frequency",
+    "default_time_step", "highest_frequency", "refuse_bytes",
 ]  # fmt: skip
 
 LEAD_IN_SECONDS = 7.5
@@ -237,7 +237,7 @@ def check(train: AnyTrain, deck: Guideway, track: Track, **options) -> Settings:
         "track_offset": _track_offset(train, deck, asked.track_offset),
         "samples": int(np.ceil(reach / advance + asked.tail / step)) + 1 + before,
         "before": before,
-        "accelerations_up_to_hz": _accelerations_up_to(deck, asked.acceleration_modes),
+        "accelerations_up_to_hz": accelerations_up_to(deck, asked.acceleration_modes),
     }
     settings = Settings(**(vars(asked) | chosen))
     _refuse_short_rails(train, deck, track, settings)
@@ -257,8 +257,19 @@ def _interaction(train: AnyTrain, asked: Options) -> str:
     return "direct" if _stiff(train) else "iterate"
 
 
-def _accelerations_up_to(deck: Guideway, chosen: float | str) -> float:
-    """Return up to which frequency (Hz) modes count in accelerations, infinite for all."""
+def accelerations_up_to(deck: Guideway, chosen: float | str) -> float:
+    """Return up to which frequency (Hz) modes count in accelerations, infinite for all.
+
+    Parameters
+    ----------
+    deck : Guideway
+    chosen : float or {"all", "en1990"}
+        See `Options`.
+
+    Raises
+    ------
+    InputError
+    """
     if chosen == "all" or not isinstance(deck, Deck):
         return np.inf
     known = deck.frequencies_hz

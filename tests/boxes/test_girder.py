@@ -304,7 +304,7 @@ def test_mechanisms_are_refused_by_both_models():
         ({"model": "shell", "mesh": {"webs": 2}}, "Did you mean 'web'"),
         ({"model": "shell", "shear": True}, "switch of the beam"),
         ({"shear": "yes"}, "true or false"),
-        ({"section": {}}, "unknown key"),
+        ({"section": {}}, "section = {}: cannot stand beside box"),
         ({"bearing": [{"x": 0.0}]}, "fixed: is missing"),
         ({"bearing": {"x": 0.0}}, "list of tables"),
         ({"bearing": [{"x": 0.0, "fixed": 3}]}, "must list some"),

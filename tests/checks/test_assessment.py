@@ -463,3 +463,26 @@ def test_a_flat_spot_makes_no_rough_track():
         assert "on a perfect track" in row["comfort b_v"].reason
         assert "on a perfect track" in row["wheel unloading"].reason
         assert row["wheel unloading"].verdict != "met"
+
+
+def test_what_is_asked_besides_is_that_of_an_envelope():
+    own = deck(6, 0.02)
+    trains = {"A1": rb.train("HSLM-A1"), "cars": rb.Train(rb.vehicle("xia2000"), cars=1)}
+    outputs = rb.studies.outputs_at(own, ("acceleration_z", "moment_vertical"), [5.0, 8.0])
+    asked = rb.studies.asked_of(outputs, ("wheel_force_z",))
+    how = {"acceleration_modes": 15.0}
+    found = rb.assess(own, trains, [40.0, 45.0], NEEDS, more=asked, **how)
+    alone = rb.assess(own, trains, [40.0, 45.0], NEEDS, **how)
+    envelope = rb.speed_envelope(
+        own, trains, [40.0, 45.0], [5.0, 8.0], ("acceleration_z", "moment_vertical"),
+        numbers=("wheel_force_z",), **how,
+    )  # fmt: skip
+    assert alone.more is None and found.more.identical(envelope)
+    assert found.envelope.identical(alone.envelope)
+    for one, other in zip(found.verdicts, alone.verdicts, strict=True):
+        assert one.value == other.value and one.verdict == other.verdict
+    with pytest.raises(rb.InputError, match="more.*functions of a crossing"):
+        functions = rb.studies.Asked((), (), {"f": len})
+        rb.assess(own, trains, [40.0], NEEDS, more=functions)
+    with pytest.raises(rb.InputError, match="more = 5"):
+        rb.assess(own, trains, [40.0], NEEDS, more=5)

@@ -60,7 +60,8 @@ def test_every_output_knows_its_number():
     assert own.asked.outputs == tuple(sorted(own.asked.outputs, key=lambda o: o.x))
     watched = {own.asked.outputs[i].quantity for i in own.watched}
     assert watched == {"acceleration_z", "displacement_z", "moment_vertical"}
-    shown, which = own.shown
+    shown = own.shown
+    which = own.columns(shown)
     assert len(which) == shown.width and "rotation_z" not in {o.quantity for o in shown.outputs}
 
 

@@ -10,6 +10,7 @@ import pytest
 import railbridge as rb
 from railbridge.commands import command as cli
 from railbridge.commands import reporting
+from railbridge.studies import engine
 
 QUICK = Path(__file__).resolve().parents[1] / "quick_case.toml"
 STUDY = """
@@ -84,6 +85,21 @@ def test_a_case_with_checks_over_speeds_is_assessed(here, capsys):
     assert code == 0
     assert "What each train comes to" in page() and "What the codes say besides" in page()
     assert re.search(r"Verdict: (met|not met|cannot decide)", page())
+
+
+def test_quantities_and_verdicts_come_from_one_pass(here, capsys, monkeypatch):
+    with Path("case.toml").open("a", encoding="utf-8") as file:
+        file.write(CHECKS)
+    computed, compute = [], engine.compute
+
+    def counted(train, deck, track, settings):
+        computed.append(settings.speed)
+        return compute(train, deck, track, settings)
+
+    monkeypatch.setattr(engine, "compute", counted)
+    code, *_ = command(capsys, "case.toml", "--speeds", "40,48", "--out", "out.html", "-q")
+    assert code == 0 and computed == [40.0, 48.0]
+    assert "Verdict: " in page() and "moment by dynamic analysis" in page()
 
 
 def test_the_own_train_of_a_case_over_speeds(here, capsys):

@@ -1,12 +1,14 @@
 """Random tracks against their spectrum: variance, Welch's estimate, coherence, independence."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import stats
 from scipy.signal import coherence, welch
 
 import railbridge as rb
-from railbridge.irregularities import COMPONENTS, PAIRS, phases
+from railbridge.irregularities import COMPONENTS, PAIRS, TrackSpectrum, phases
 
 PHASES = {
     "vertical": [5.013097119972429, 0.3335987071777463, 3.7155686524197566],
@@ -178,3 +180,26 @@ def test_a_seed_that_would_be_rounded_to_another_is_refused():
     with pytest.raises(rb.InputError, match="seed"):
         rb.RandomTrack("german-low", seed=2**53 + 2)
     assert rb.RandomTrack("german-low", seed=2**53 - 1, band=(30, 60)).seed == 2**53 - 1
+
+
+def test_tracks_of_equal_contents_are_equal():
+    one, other = (rb.RandomTrack("german-low", seed=3, period=300.0) for _ in range(2))
+    assert one == other and hash(one) == hash(other) and len({one, other}) == 1
+    assert one.spectrum == other.spectrum and one.spectrum is not other.spectrum
+    spectra = [one.spectrum.scaled(sigma) for sigma in (1e-3, 1e-3, 2e-3)]
+    scaled = [rb.RandomTrack(own, seed=3, period=300.0) for own in spectra]
+    assert scaled[0] == scaled[1] != scaled[2] and scaled[0] != one
+    others = {"seed": 4, "period": 310.0, "components": ("vertical",), "band": (4.0, 150.0)}
+    for name, value in others.items():
+        assert replace(one, **{name: value}) != one
+    assert one != rb.Track(one.vertical, one.lateral) and rb.Track() != one
+
+
+def test_powers_are_found_once_for_all_seeds(monkeypatch):
+    first = rb.RandomTrack("german-low", seed=1, period=431.0)
+    monkeypatch.setattr(TrackSpectrum, "sigma", None)  # which nobody may ask for again
+    again = rb.RandomTrack("german-low", seed=2, period=431.0)
+    for name in first.components:
+        assert again.powers[name] is first.powers[name]
+    with pytest.raises(TypeError):
+        rb.RandomTrack("german-low", seed=1, period=432.0)

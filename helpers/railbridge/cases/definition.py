@@ -197,7 +197,7 @@ class Case:
         speeds : sequence of float, Between, or int; optional
             m/s; or how many of `checks.usual_speeds`, which are taken if nothing is given.
         **how
-            ``stations``, ``workers``, ``store`` and ``progress`` of `checks.assess`.
+            ``stations``, ``more``, ``workers``, ``store`` and ``progress`` of `checks.assess`.
 
         Raises
         ------

@@ -103,6 +103,11 @@ class Plan:
         """That of the first case."""
         return self.like.deck
 
+    @property
+    def speeds(self) -> list[float]:
+        """Its speeds, m/s; empty where they do not vary."""
+        return [float(v) for d in self.dimensions if d.path == "run.speed" for v in d.values]
+
     @cached_property
     def task(self) -> Task:
         """What computes a chunk; the same for all of the study, however much of it is left."""

@@ -24,7 +24,7 @@ from ..steady import steady_forces
 from ..tracks import Track
 from ..trains import AnyTrain, Train
 from .plausibility import doubts
-from .tracksindoubt import parts_of
+from .tracksindoubt import parts_of, track_doubts
 
 __all__ = [
     "SETTLED", "ends_move", "left_open", "remarks", "remarks_before", "transient", "unsettled",
@@ -48,39 +48,39 @@ _STILL = 1e-3
 
 def remarks(run: Crossing) -> tuple[Remark, ...]:
     """Return what is doubtful about a crossing and what its numbers leave out, a sentence each."""
-    known = run.train, run.deck, run.track, run.settings
-    found: list[Remark] = [remark.moved("deck") for remark in run.deck.remarks]
-    found += doubts(*known)
-    found += _only_modes(run.deck)
+    found = [*remarks_before(run.train, run.deck, run.track, run.settings)]
     found += _transient(run)
-    found += _cut_short(run.deck, run.settings)
-    found += _coarse(run.deck, run.settings)
-    found += _coarse_contact(run.train, run.settings)
-    found += _apart(*known)
     found += _not_settled(run)
     found += _solved_otherwise(run)
     found += _parted(run) if run.settings.contact == "hertz" else _pulling(run)
     found += _lifting(run)
-    found += _moving_ends(run.deck)
     found += _broken_track(run)
-    found += _measured(run.track)
     return tuple(found)
 
 
 def remarks_before(
-    train: AnyTrain, deck: Deck, track: Track, settings: Settings
+    train: AnyTrain, deck: Deck, track: Track, settings: Settings, *others: Track
 ) -> tuple[Remark, ...]:
-    """Return what is doubtful about a crossing before it is computed, a sentence each."""
+    """Return what is doubtful about a crossing before it is computed, a sentence each.
+
+    Parameters
+    ----------
+    train, deck, track, settings
+    *others : Track
+        What the rails are besides, of which only what is about tracks is said.
+    """
     found: list[Remark] = [remark.moved("deck") for remark in deck.remarks]
     found += doubts(train, deck, track, settings)
+    found += [doubt for other in others for doubt in track_doubts(train, other)]
     found += _only_modes(deck)
     found += _cut_short(deck, settings)
     found += _coarse(deck, settings)
     found += _coarse_contact(train, settings)
-    found += _apart(train, deck, track, settings)
+    tracks = (track, *others)
+    found += [remark for own in tracks for remark in _apart(train, deck, own, settings)]
     found += _moving_ends(deck)
-    found += _measured(track)
-    return tuple(found)
+    found += [remark for own in tracks for remark in _measured(own)]
+    return tuple({str(remark): remark for remark in found}.values())
 
 
 def unsettled(run: Crossing) -> bool:

@@ -31,7 +31,7 @@ from .bounds import (
     frequency_off,
     usual_frequencies,
 )
-from .tracksindoubt import of_track, on_one_rail
+from .tracksindoubt import track_doubts
 from .trainsindoubt import of_train
 
 __all__ = [
@@ -64,7 +64,7 @@ def doubts(
     scale = [] if _explained(deck) else _scale(deck, signs)
     trains = of_train(train)
     found = [*scale, *_damping(deck, signs, bool(scale)), *_places(deck), *trains]
-    found += _off_axis(deck, settings) + of_track(track) + on_one_rail(train, track)
+    found += _off_axis(deck, settings) + track_doubts(train, track)
     found += _speed(train, settings.speed)
     if not (scale or trains or _explained(deck)):
         found += _live_sag(train, deck, signs.span)

@@ -11,11 +11,15 @@ from ..tracks import Irregularity, Rails, Track
 from ..trains import AnyTrain
 from .bounds import BOUNDS, doubt
 
-__all__ = ["of_track", "on_one_rail", "parts_of"]
+__all__ = ["parts_of", "track_doubts"]
 
 
-def of_track(track: Track) -> list[InputWarning]:
-    """Return what is unlikely to be meant about a track."""
+def track_doubts(train: AnyTrain, track: Track) -> list[InputWarning]:
+    """Return what is unlikely to be meant about a track below a train."""
+    return _of_track(track) + _on_one_rail(train, track)
+
+
+def _of_track(track: Track) -> list[InputWarning]:
     found = []
     for field, part in parts_of(track):
         if hasattr(part, "amplitude") and hasattr(part, "wavelength"):
@@ -27,7 +31,7 @@ def of_track(track: Track) -> list[InputWarning]:
     return found
 
 
-def on_one_rail(train: AnyTrain, track: Track) -> list[InputWarning]:
+def _on_one_rail(train: AnyTrain, track: Track) -> list[InputWarning]:
     """Doubt rails that differ below wheels at y = 0, which all stand on the left one."""
     found, apart_by = [], {"lateral": "gauge", "vertical": "cross-level"}
     for column, (direction, apart) in enumerate(apart_by.items()):

@@ -14,8 +14,16 @@ from ..crossing import compute
 from ..decks import Deck
 from ..errors import InputError, brief
 from ..results import Crossing
-from ..settings import STATIONS, Options, check
-from ..studies import Between, Row, Store, crossings, row_of_run
+from ..settings import STATIONS, Options, accelerations_up_to, check
+from ..studies import (
+    Asked,
+    Between,
+    Row,
+    Store,
+    crossings,
+    of_modes_counted,
+    row_of_run,
+)
 from ..studies.envelopes import Crossings
 from ..tracks import Irregularity, Level, Sum, Track
 from ..trains import AnyTrain, AxleTrain
@@ -55,6 +63,8 @@ class Assessment:
         The largest responses over ``train``, ``speed`` (m/s) and ``x`` (m).
     of_trains : dict of tuple of Finding
         By train, its own findings of the clauses that trains decide.
+    more : xarray.Dataset or None
+        What was asked of the same crossings besides, as `studies.speed_envelope` gives it.
     """
 
     __repr__ = brief
@@ -65,6 +75,7 @@ class Assessment:
     rules: dict[str, Answer]
     envelope: xr.Dataset
     of_trains: dict[str, tuple[Finding, ...]] = field(repr=False)
+    more: xr.Dataset | None = field(default=None, repr=False)
 
     @property
     def verdict(self) -> str:
@@ -120,6 +131,7 @@ def assess(
     *,
     track: Track | None = None,
     stations: int = STATIONS,
+    more: Asked | None = None,
     workers: int = 1,
     store: Store | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -142,6 +154,9 @@ def assess(
     stations : int
         Places along the deck where its acceleration is looked at, ends included; a multiple of 4
         and one. Fewer are quicker.
+    more : studies.Asked, optional
+        Outputs and numbers that are asked of the same crossings besides, for `Assessment.more`.
+        Where speeds are chosen, its outputs decide which, so that they cover no resonance here.
     workers, store, progress
         See `studies.speed_envelope`.
     **options
@@ -168,8 +183,13 @@ def assess(
     stations = errors.integer("stations", stations, least=5, most=1001)
     if stations % 4 != 1:
         raise InputError("stations", stations, "must be a multiple of 4 and one", "Take 9 or 41")
-    options = _all_modes(options)
-    parts = _Parts(Structure(deck, needs), _offset(deck, options), stations)
+    besides = Asked(()) if more is None else errors.instance("more", more, Asked)
+    if besides.more:
+        remedy = "Ask for outputs and for numbers by name"
+        raise InputError("more", None, "must not hold functions of a crossing", remedy)
+    counts, options = options.get("acceleration_modes", "all"), _all_modes(options)
+    besides = _of_modes(besides, deck, counts)
+    parts = _Parts(Structure(deck, needs), _offset(deck, options), stations, besides)
     asked = parts.questions.asked
     found = crossings(
         deck, trains, speeds, asked, watched=parts.questions.watched, track=track,
@@ -177,7 +197,9 @@ def assess(
     )  # fmt: skip
     answers = rules(parts.structure, parts.questions)
     own_speeds, line_speed = found.speeds.tolist(), needs.line_speed
-    answers["speeds_covered"] = coverage(answers, own_speeds, isinstance(speeds, Between))
+    answers["speeds_covered"] = coverage(
+        answers, own_speeds, isinstance(speeds, Between) and not besides.outputs
+    )
     stepped = {
         name: train for name, train in found.trains.items() if not isinstance(train, AxleTrain)
     }
@@ -197,10 +219,9 @@ def assess(
     worst = clauses.findings(every)
     located = _Located(deck, found.trains, Track() if track is None else track, options)
     rows = [located(one).verdict for one in [*parts.loads.findings(), *worst]]
-    shown, which = parts.questions.shown
-    short = [row if isinstance(row, str) else _part(row, which) for row in found.rows]
-    picture = Crossings(found.trains, found.speeds, found.chosen, short).dataset(deck, shown)
-    return Assessment(deck, needs, Verdicts(rows), answers, picture, of_trains)
+    picture = _dataset(found, parts.questions, parts.questions.shown)
+    asked_besides = None if more is None else _dataset(found, parts.questions, besides)
+    return Assessment(deck, needs, Verdicts(rows), answers, picture, of_trains, asked_besides)
 
 
 def usual_speeds(needs: Requirements, count: int | None = None) -> np.ndarray:
@@ -264,11 +285,12 @@ class _Parts:
     structure: Structure
     offset: float
     stations: int = STATIONS
+    more: Asked = Asked(())
     questions: Questions = field(init=False)
     loads: StaticLoads = field(init=False)
 
     def __post_init__(self) -> None:
-        questions = Questions(self.structure, self.stations)
+        questions = Questions(self.structure, self.stations, self.more)
         object.__setattr__(self, "questions", questions)
         object.__setattr__(self, "loads", StaticLoads(self.structure, questions, self.offset))
 
@@ -309,8 +331,19 @@ def _points(found: Crossings) -> list[Point]:
     ]
 
 
-def _part(row: Row, which: np.ndarray) -> Row:
-    return Row(row.values[which], row.message)
+def _of_modes(besides: Asked, deck: Deck, counts: float | str) -> Asked:
+    """Return what is asked besides, its accelerations of the modes that its options count."""
+    up_to = accelerations_up_to(deck, counts)
+    return replace(besides, outputs=of_modes_counted(besides.outputs, deck, up_to))
+
+
+def _dataset(found: Crossings, questions: Questions, part: Asked) -> xr.Dataset:
+    """Return a part of what was asked as labelled arrays."""
+    which = questions.columns(part)
+    short = [
+        row if isinstance(row, str) else Row(row.values[which], row.message) for row in found.rows
+    ]
+    return replace(found, rows=short).dataset(questions.deck, part)
 
 
 # ---- where in a train

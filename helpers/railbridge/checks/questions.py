@@ -56,10 +56,13 @@ class Questions:
     structure : Structure
     stations : int
         Places along the deck where its acceleration is asked for, ends included.
+    more : Asked
+        What is asked of the same crossings besides, and not judged.
     """
 
     structure: Structure
     stations: int = STATIONS
+    more: Asked = Asked(())
 
     @property
     def deck(self) -> Deck:
@@ -154,8 +157,10 @@ class Questions:
         found = [
             *self.accelerations, *self.displacements, *(o for _, o in self.moments), *self.twists,
             *self.end_rotations, *(o for _, o in self.bows), *(b.output for b in self.bearings),
+            *self.more.outputs,
         ]  # fmt: skip
-        return Asked(tuple(sorted(found, key=lambda output: output.x)), NUMBERS + _OF_TRUST)
+        numbers = dict.fromkeys((*NUMBERS, *_OF_TRUST, *self.more.numbers))
+        return Asked(tuple(sorted(found, key=lambda output: output.x)), tuple(numbers))
 
     @cached_property
     def number_of(self) -> dict[int, int]:
@@ -164,25 +169,31 @@ class Questions:
 
     @property
     def watched(self) -> list[int]:
-        """What decides where chosen speeds lie: mid-spans and the quarters of the deck."""
+        """What decides where chosen speeds lie: mid-spans and the quarters of the deck.
+
+        Or what is asked besides, where something is.
+        """
         quarters = self.accelerations[:: (self.stations - 1) // 4][1:-1]
         own = [*quarters, *self.displacements, *(output for _, output in self.moments)]
-        return [self.number_of[id(output)] for output in own]
+        return [self.number_of[id(output)] for output in self.more.outputs or own]
 
     @property
-    def shown(self) -> tuple[Asked, np.ndarray]:
-        """What a data set over places can hold, and which numbers of a row that is."""
+    def shown(self) -> Asked:
+        """What a data set over places can hold."""
         quantities = ("acceleration_z", "displacement_z", "moment_vertical", "twist")
-        own = [
-            i
-            for i, o in enumerate(self.asked.outputs)
-            if o.quantity in quantities and 0.0 <= o.x <= self.deck.length
-        ]
-        count = len(self.asked.outputs)
-        six = [k * count + i for k in range(6) for i in own]
-        numbers = [6 * count + i for i in range(len(NUMBERS))]
-        asked = Asked(tuple(self.asked.outputs[i] for i in own), NUMBERS)
-        return asked, np.array([*six, *numbers])
+        besides = {id(output) for output in self.more.outputs}
+        own = (
+            o
+            for o in self.asked.outputs
+            if o.quantity in quantities and 0.0 <= o.x <= self.deck.length and id(o) not in besides
+        )
+        return Asked(tuple(own), NUMBERS)
+
+    def columns(self, part: Asked) -> np.ndarray:
+        """Return which numbers of a row are those of a part of what is asked."""
+        count, own = len(self.asked.outputs), [self.number_of[id(o)] for o in part.outputs]
+        numbers = [6 * count + self.asked.numbers.index(name) for name in part.numbers]
+        return np.array([*(k * count + i for k in range(6) for i in own), *numbers], dtype=int)
 
     @property
     def _middles(self) -> list[float]:

@@ -21,6 +21,7 @@ from .speech import Progress, say, tell, warn
 if TYPE_CHECKING:
     import xarray as xr
 
+    from ..checks import Assessment
     from ..reports import Report
 
 __all__ = ["add_command"]
@@ -161,17 +162,36 @@ def _over_speeds(given: argparse.Namespace, loaded: Case | None) -> int:
     plan, asking = studying.envelope_plan(given, loaded)
     if loaded is None and not _sure(given, plan, asking):
         return 2
-    found = _computed(given, plan, asking)
-    with studying.crossings_told(given.quiet) as progress:
-        judged = reports.judged_over_speeds(
-            plan.like, plan.trains, found.speed.values, workers=given.workers, progress=progress
-        )
+    found, judged = _judged(given, plan, asking)
     made = reports.report_of_envelope(
         plan.like, plan.trains, found, tables=plan.tables, assessment=judged, doubts=plan.doubts,
         title=given.title,
     )  # fmt: skip
     _write(given, made)
     return studying.FAILED if any(found.message.values.ravel().tolist()) else 0
+
+
+def _judged(
+    given: argparse.Namespace, plan: Plan, asking: studying.Asking
+) -> tuple[xr.Dataset, Assessment | None]:
+    """Return what is asked of the crossings and their verdicts, from one pass where it can be.
+
+    A folder of results holds what is asked alone: beside it the verdicts take a second one.
+    """
+    from .. import reports
+
+    how = {"workers": given.workers}
+    if plan.like.requirements is None or given.results is not None or plan.asked.more:
+        found = _computed(given, plan, asking)
+        with studying.crossings_told(given.quiet) as how["progress"]:
+            return found, reports.judged_over_speeds(
+                plan.like, plan.trains, found.speed.values, **how
+            )
+    _ready(given, plan, asking)
+    speeds = asking.between or plan.speeds
+    with studying.crossings_told(given.quiet) as how["progress"]:
+        judged = reports.judged_over_speeds(plan.like, plan.trains, speeds, more=plan.asked, **how)
+    return judged.more, judged
 
 
 def _of_study(given: argparse.Namespace) -> int:
@@ -199,9 +219,14 @@ def _sure(given: argparse.Namespace, plan: Plan, asking: studying.Asking) -> boo
     return True
 
 
-def _computed(given: argparse.Namespace, plan: Plan, asking: studying.Asking) -> xr.Dataset:
+def _ready(given: argparse.Namespace, plan: Plan, asking: studying.Asking) -> None:
+    """Refuse what cannot be computed."""
     studies.needed("xarray", *["zarr"] * (given.results is not None), "tqdm")
     studying.refuse_large(plan, asking)
+
+
+def _computed(given: argparse.Namespace, plan: Plan, asking: studying.Asking) -> xr.Dataset:
+    _ready(given, plan, asking)
     folder: Any = nullcontext()
     if given.results is not None:
         folder = staging.growing(given.results, "--results")

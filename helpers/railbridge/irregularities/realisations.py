@@ -20,7 +20,7 @@ x forward, y to the left, z up: a higher left rail is positive roll.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from typing import Annotated, Any
 
@@ -55,9 +55,25 @@ def phases(seed: int, component: str, count: int) -> np.ndarray:
     return 2 * np.pi * np.random.Generator(np.random.PCG64(own)).random(count)
 
 
-@dataclass(frozen=True)
+@lru_cache(maxsize=64)
+def _powers(
+    own: TrackSpectrum, component: str, first: float, last: float, count: int
+) -> np.ndarray:
+    """Return the variance in each of some bands of equal width between wave numbers (rad/m), m2.
+
+    Tracks that differ in their seeds share it: it takes longer than all the rest of a track.
+    """
+    waves = 2 * np.pi / np.linspace(first, last, count + 1)
+    found = [
+        own.sigma(component, (short, long), height=True) ** 2
+        for long, short in pairwise(waves.tolist())
+    ]
+    return frozen(np.array(found))
+
+
+@dataclass(frozen=True, eq=False)
 class RandomTrack(Track):
-    """A track drawn from a spectrum.
+    """A track drawn from a spectrum; two of the same choices are equal.
 
     Attributes
     ----------
@@ -113,6 +129,19 @@ class RandomTrack(Track):
             object.__setattr__(self, direction, self._of_rails(direction))
         super().__post_init__()
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, RandomTrack):
+            return NotImplemented
+        return self._choices == other._choices
+
+    def __hash__(self) -> int:
+        return hash(self._choices)
+
+    @property
+    def _choices(self) -> tuple[Any, ...]:
+        """What decides the track, waves and all."""
+        return self.spectrum, self.band, self.seed, self.components, self.period
+
     @property
     def length(self) -> float:
         """M after which it repeats itself: a little more than was asked for."""
@@ -139,18 +168,8 @@ class RandomTrack(Track):
     @cached_property
     def powers(self) -> dict[str, np.ndarray]:
         """The variance that every band holds of every component, m2, shape (waves,)."""
-        waves = 2 * np.pi / self.edges
-        return {
-            name: frozen(
-                np.array(
-                    [
-                        self.spectrum.sigma(name, (short, long), height=True) ** 2
-                        for long, short in pairwise(waves.tolist())
-                    ]
-                )
-            )
-            for name in self.components
-        }
+        bands = float(self.edges[0]), float(self.edges[-1]), len(self.edges) - 1
+        return {name: _powers(self.spectrum, name, *bands) for name in self.components}
 
     def amplitudes(self, component: str) -> np.ndarray:
         """Return size and phase of every wave, m, complex: r = Re sum A exp(i W x)."""

@@ -75,6 +75,18 @@ class Scaling:
     wanted: float
 
 
+def _comparable(thing: Any) -> Any:
+    """Return what a dataclass, table, list or array holds as something that compares and hashes."""
+    if isinstance(thing, np.ndarray):
+        return thing.shape, tuple(thing.ravel().tolist())
+    if dataclasses.is_dataclass(thing) and not isinstance(thing, type):
+        own = {f.name: getattr(thing, f.name) for f in dataclasses.fields(thing)}
+        return type(thing), _comparable(own)
+    if isinstance(thing, Mapping):
+        return tuple((name, _comparable(thing[name])) for name in sorted(thing))
+    return tuple(map(_comparable, thing)) if isinstance(thing, (list, tuple)) else thing
+
+
 @dataclass(frozen=True, eq=False)
 class TrackSpectrum:
     """One-sided spectra of the irregularities of a track, per component.
@@ -109,6 +121,19 @@ class TrackSpectrum:
         object.__setattr__(self, "band", _ordered("band", self.band))
         object.__setattr__(self, "base", number("base", self.base, above=0.0, unit="m"))
         number("factor", self.factor, above=0.0)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, TrackSpectrum):
+            return NotImplemented
+        return self is other or self._contents == other._contents
+
+    def __hash__(self) -> int:
+        return hash(self._contents)
+
+    @cached_property
+    def _contents(self) -> tuple:
+        """All that it holds, to be compared: its dataclasses hold arrays."""
+        return _comparable({f.name: getattr(self, f.name) for f in dataclasses.fields(self)})
 
     def __repr__(self) -> str:
         text = f"TrackSpectrum({self.name!r}, {', '.join(self.components)}"

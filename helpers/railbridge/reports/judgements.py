@@ -14,6 +14,7 @@ from ..checks import Assessment, Requirements, assess_run
 from ..codes import Answer, Verdict, Verdicts
 from ..plots.verdictbars import LONG, SHOWN
 from ..results import Crossing
+from ..studies import Between
 from ..trains import AnyTrain
 from .parts import Column, Picture, Section, Table, Words, exact, in_km_h, shown, sized
 from .pictures import verdict_bars
@@ -35,7 +36,7 @@ def judged_run(case: Case, run: Crossing) -> Verdicts | None:
 
 
 def judged_over_speeds(
-    case: Case, trains: Mapping[str, AnyTrain], speeds: Sequence[float], **how: Any
+    case: Case, trains: Mapping[str, AnyTrain], speeds: Sequence[float] | Between, **how: Any
 ) -> Assessment | None:
     """Return the assessment of trains over speeds by what the case asks for; None for nothing.
 
@@ -44,10 +45,10 @@ def judged_over_speeds(
     case : Case
         With the deck, the track and the choices; its own train and speed do not count.
     trains : mapping of trains
-    speeds : sequence of float
+    speeds : sequence of float, or Between
         m/s.
     **how
-        ``workers``, ``progress``: see `checks.assess`.
+        ``more``, ``workers``, ``progress``: see `checks.assess`.
     """
     return None if case.requirements is None else case.assess(dict(trains), speeds, **how)
 

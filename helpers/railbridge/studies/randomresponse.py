@@ -16,7 +16,7 @@ Nothing is assumed but that train and deck are linear; that answers are Gaussian
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -65,18 +65,15 @@ class RandomResponse:
 
     track: RandomTrack
     waves: UnitWaves
-    _known: dict[str, tuple[np.ndarray, ...]] = field(default_factory=dict, repr=False)
 
     @property
     def remarks(self) -> tuple[Remark, ...]:
         """What is doubtful about train, deck and track, and about the spectrum's constants."""
-        known = self.waves.train, self.waves.deck
-        found = (
-            *remarks_before(*known, self.waves.base, self.waves.settings),
-            *remarks_before(*known, self.track, self.waves.settings),
-            *_too_short(self.waves.train, self.track, self.waves.settings.speed),
+        train, deck, settings = self.waves.train, self.waves.deck, self.waves.settings
+        return (
+            *remarks_before(train, deck, self.waves.base, settings, self.track),
+            *_too_short(train, self.track, settings.speed),
         )
-        return tuple({str(remark): remark for remark in found}.values())
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -192,9 +189,14 @@ class RandomResponse:
             some = slice(first, first + _LANES)
             yield waves[:, some], powers[some]
 
+    @cached_property
+    def _known_moments(self) -> dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Moments of histories that were asked for; no closure, so that it can be pickled."""
+        return {}
+
     def _moments(self, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the standard deviations of a history and of its rate, and their correlation."""
-        if name not in self._known:
+        if name not in self._known_moments:
             own = self.waves.history(name)
             square, of_rate, mixed = np.zeros((3, len(own.time)))
             for component in zip(own.waves, self._powers, strict=True):
@@ -205,8 +207,9 @@ class RandomResponse:
                     mixed += (waves * rates) @ powers
             sizes = np.sqrt(square * of_rate)
             together = np.divide(mixed, sizes, out=np.zeros_like(mixed), where=sizes > 0.0)
-            self._known[name] = np.sqrt(square), np.sqrt(of_rate), np.clip(together, -1.0, 1.0)
-        return self._known[name]
+            found = np.sqrt(square), np.sqrt(of_rate), np.clip(together, -1.0, 1.0)
+            self._known_moments[name] = found
+        return self._known_moments[name]
 
 
 def random_response(
