@@ -197,6 +197,27 @@ def test_a_wheel_that_bounces_without_a_damper_is_doubted(damping):
 
 
 @pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+def test_a_landing_asks_for_a_finer_step_and_is_told_how_far_it_is_off():
+    car = rb.with_wheelsets(rb.planar_car(CAR), mass=1800.0, contact_damping=1e5)
+    track = rb.Track(vertical=rb.Harmonic(5e-3, wavelength=2.5))
+    options = {"speed": 60.0, "lead_in": 60.0, "tail": 0.1, "contact": "hertz"}
+    found, told = [], []
+    for step in (5e-4, 2.5e-4, 1e-4):
+        run = rb.cross(rb.Train(car), DECK, track, time_step=step, **options)
+        assert run.parted.any()
+        found.append(-run.wheel_forces[:, 1].min())
+        told.append([t for t in said(run) if "on landing" in t])
+    assert told[2] == []
+    for force, (text,) in zip(found[:2], told[:2], strict=True):
+        share = float(text.partition("off by some ")[2].partition(" %")[0]) / 100
+        assert 0.5 * share < abs(force / found[2] - 1.0) < 1.5 * share
+        assert text.startswith("time_step = ") and "At most 0.00019 s would do" in text
+    pressed = rb.Track(vertical=rb.Harmonic(1e-3, wavelength=2.5))
+    run = rb.cross(rb.Train(car), DECK, pressed, time_step=5e-4, **options)
+    assert not any("on landing" in t for t in said(run))
+
+
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
 def test_lateral_forces_of_wheels_off_the_rail_are_doubted():
     car = rb.with_wheelsets(CAR, mass=1800.0, roll_inertia=900.0, contact_damping=5e4)
     flat = rb.Notch(((1, 1),), circumference=2.89, offset=9.0, depth=1e-3, length=0.05)
