@@ -149,6 +149,30 @@ def test_ends_that_move_spoil_accelerations_and_that_is_said():
     assert any(t.startswith("An end of the deck moves") for t in said(run))
 
 
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+def test_ends_that_move_spoil_the_forces_of_wheels_with_mass_too():
+    """A wheel on a stiff contact is lifted onto the end at once; on a bed nothing of it is left."""
+    soft = {"fixed": "x y roll", "stiffness": {"z": 2e9}}
+    content = {
+        "length": 20.0, "mass": 12e3, "bending_stiffness_vertical": 1.2e10, "modes": 6,
+        "damping": {"modal": 0.02}, "bearing": [{"x": x, **soft} for x in (0.0, 20.0)],
+    }  # fmt: skip
+    deck = rb.deck_from_table("elastic", content)
+    bed = rb.Rail(bending_stiffness=1.28e7, foundation=1e8)
+    options = {"speed": 20.0, "lead_in": 0.0, "tail": 0.1}
+    swings = []
+    for own in (deck, replace(deck, rail=bed)):
+        run = rb.cross(rb.Train(WHEELED), own, **options)
+        load = run.train.wheels[0].static_load
+        swings.append(np.abs(run.wheel_forces[:, 1] + load).max() / load)
+        told = [t for t in said(run) if "An end of the deck moves" in t]
+        assert all("accelerations and the forces of wheels with mass are not" in t for t in told)
+        assert len(told) == (own is deck)
+    assert swings[0] > 1.0 and swings[1] < 0.05
+    (text,) = (t for t in said(rb.cross(rb.Train(CAR), deck, **options)) if "An end" in t)
+    assert "so accelerations are not" in text
+
+
 def test_a_car_that_carries_nothing_has_no_unloading():
     body = rb.Body("mass", 1e4, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), ("y",))
     spring = rb.Spring("mass", "rail", (0.0, 0.0, 0.0), (1e6, 0.0), (1e4, 0.0))

@@ -57,7 +57,7 @@ def remarks(run: Crossing) -> tuple[Remark, ...]:
     found += _solved_otherwise(run)
     found += _parted(run) if run.settings.contact == "hertz" else _pulling(run)
     found += _lifting(run)
-    found += _moving_ends(run.deck)
+    found += _moving_ends(run.train, run.deck)
     found += _broken_track(run)
     found += _measured(run.track)
     return tuple(found)
@@ -74,7 +74,7 @@ def remarks_before(
     found += _coarse(deck, settings)
     found += _coarse_contact(train, settings)
     found += _apart(train, deck, track, settings)
-    found += _moving_ends(deck)
+    found += _moving_ends(train, deck)
     found += _measured(track)
     return tuple(found)
 
@@ -352,14 +352,17 @@ def ends_move(deck: Deck) -> bool:
     return bool(max(vertical[0], vertical[-1]) > _STILL * vertical.max())
 
 
-def _moving_ends(deck: Deck) -> list[Remark]:
+def _moving_ends(train: AnyTrain, deck: Deck) -> list[Remark]:
     """Say that a wheel steps at full weight, or in parts of it, onto an end that moves."""
     if not ends_move(deck):
         return []
+    what = "accelerations"
+    if any(vehicle.wheelsets for vehicle, _ in train.kinds()):
+        what += " and the forces of wheels with mass"
     how = "at full weight" if deck.rail is None else "by quarters and halves of their weight"
     text = (
         "An end of the deck moves (elastic bearings, piers or an overhang): wheels step on or off "
-        f"there {how}, so accelerations are not to be trusted. Try a rail on a bed, "
+        f"there {how}, so {what} are not to be trusted. Try a rail on a bed, "
         "deck.rail = { bending_stiffness = 1.28e7, foundation = 1e8 }."
     )
     return [ResultWarning("", text)]
