@@ -149,6 +149,30 @@ def test_ends_that_move_spoil_accelerations_and_that_is_said():
     assert any(t.startswith("An end of the deck moves") for t in said(run))
 
 
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+def test_ends_that_move_spoil_the_forces_of_wheels_with_mass_too():
+    """A wheel on a stiff contact is lifted onto the end at once; on a bed nothing of it is left."""
+    soft = {"fixed": "x y roll", "stiffness": {"z": 2e9}}
+    content = {
+        "length": 20.0, "mass": 12e3, "bending_stiffness_vertical": 1.2e10, "modes": 6,
+        "damping": {"modal": 0.02}, "bearing": [{"x": x, **soft} for x in (0.0, 20.0)],
+    }  # fmt: skip
+    deck = rb.deck_from_table("elastic", content)
+    bed = rb.Rail(bending_stiffness=1.28e7, foundation=1e8)
+    options = {"speed": 20.0, "lead_in": 0.0, "tail": 0.1}
+    swings = []
+    for own in (deck, replace(deck, rail=bed)):
+        run = rb.cross(rb.Train(WHEELED), own, **options)
+        load = run.train.wheels[0].static_load
+        swings.append(np.abs(run.wheel_forces[:, 1] + load).max() / load)
+        told = [t for t in said(run) if "An end of the deck moves" in t]
+        assert all("accelerations and the forces of wheels with mass are not" in t for t in told)
+        assert len(told) == (own is deck)
+    assert swings[0] > 1.0 and swings[1] < 0.05
+    (text,) = (t for t in said(rb.cross(rb.Train(CAR), deck, **options)) if "An end" in t)
+    assert "so accelerations are not" in text
+
+
 def test_a_car_that_carries_nothing_has_no_unloading():
     body = rb.Body("mass", 1e4, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), ("y",))
     spring = rb.Spring("mass", "rail", (0.0, 0.0, 0.0), (1e6, 0.0), (1e4, 0.0))
@@ -194,6 +218,27 @@ def test_a_wheel_that_bounces_without_a_damper_is_doubted(damping):
     first, last = np.transpose(blows)
     assert first.max() < 1.05 * first.min()
     assert (last.max() > 1.1 * last.min()) == (damping == 0.0)
+
+
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+def test_a_landing_asks_for_a_finer_step_and_is_told_how_far_it_is_off():
+    car = rb.with_wheelsets(rb.planar_car(CAR), mass=1800.0, contact_damping=1e5)
+    track = rb.Track(vertical=rb.Harmonic(5e-3, wavelength=2.5))
+    options = {"speed": 60.0, "lead_in": 60.0, "tail": 0.1, "contact": "hertz"}
+    found, told = [], []
+    for step in (5e-4, 2.5e-4, 1e-4):
+        run = rb.cross(rb.Train(car), DECK, track, time_step=step, **options)
+        assert run.parted.any()
+        found.append(-run.wheel_forces[:, 1].min())
+        told.append([t for t in said(run) if "on landing" in t])
+    assert told[2] == []
+    for force, (text,) in zip(found[:2], told[:2], strict=True):
+        share = float(text.partition("off by some ")[2].partition(" %")[0]) / 100
+        assert 0.5 * share < abs(force / found[2] - 1.0) < 1.5 * share
+        assert text.startswith("time_step = ") and "At most 0.00019 s would do" in text
+    pressed = rb.Track(vertical=rb.Harmonic(1e-3, wavelength=2.5))
+    run = rb.cross(rb.Train(car), DECK, pressed, time_step=5e-4, **options)
+    assert not any("on landing" in t for t in said(run))
 
 
 @pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")

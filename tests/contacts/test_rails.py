@@ -342,6 +342,48 @@ def test_newtons_law_holds_for_the_whole_deck_at_every_instant(rail):
     assert np.quantile(off, 0.99) < 0.01 * max(train.loads)
 
 
+@pytest.mark.parametrize("loads", ["bogies", "condensed"])
+@pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
+def test_newtons_laws_hold_where_a_bogie_s_couple_is_spread(loads):
+    """Force, and moment about x = 0, on a deck whose ends give; the kernel is written out here.
+
+    A couple M on the rail acts on the slope of what the load is spread over: - M psi'.
+    """
+    length, mass, alpha, beta = 18.0, 9e3, 0.6, 4e-4
+    bearings = tuple(rb.Bearing(x, ("y", "roll"), stiffness={"z": 4e8}) for x in (0.0, length))
+    beam = rb.Beam("b", (length,), mass, 5e9, elements=24, bearings=bearings)
+    deck = beam.deck(12, (alpha, beta), rail=BED)
+    train, speed = rb.Train(rb.planar_car(CAR)), 45.0
+    options = {"time_step": 5e-4, "lead_in": 0.0, "tail": 0.1, "interaction": "rigid"}
+    run = rb.cross(train, deck, speed=speed, loads=loads, **options)
+    some = slice(None, None, 11)
+    s = np.linspace(0.0, length, 1801)
+    groups = [[0, 1], [2, 3]] if loads == "bogies" else [[0, 1, 2, 3]]
+    arriving = np.zeros((2, len(run.time[some])))
+    for group in groups:
+        wheels = [train.wheels[i] for i in group]
+        middle = np.mean([wheel.x for wheel in wheels])
+        force = run.wheel_forces[group, 1][:, some]
+        couple = -sum((w.x - middle) * f for w, f in zip(wheels, force, strict=True))
+        at = speed * run.time[some] - train.formation[0].centre + middle
+        away = (at[:, None] - s) / BED.length
+        fade = np.exp(-np.abs(away)) / BED.length
+        kernel = fade * (np.cos(away) + np.sin(np.abs(away))) / 2.0
+        slope = -fade * np.sin(away) / BED.length
+        for own, arm in zip(arriving, (np.ones_like(s), s), strict=True):
+            own += np.trapezoid(kernel * arm, s, axis=1) * force.sum(axis=0)
+            own -= np.trapezoid(slope * arm, s, axis=1) * couple
+    held = {x: history["force_z"][some] for x, history in run.reactions().items()}
+    found = np.array([sum(held.values()), sum(x * force for x, force in held.items())])
+    q, v, p = run.state.q, run.state.velocity, run.state.modal_force
+    moving = (deck.acceleration(q, v, p) + alpha * v)[:, some]
+    shape = deck.shapes(s)[:, :, 1]
+    inertia = mass * np.trapezoid(np.stack([shape, s[:, None] * shape]), s, axis=1) @ moving
+    wrong = np.abs(found + arriving - inertia).max(axis=1)
+    assert np.all(np.abs(inertia).max(axis=1) > 0.1 * np.abs(arriving).max(axis=1))
+    assert np.all(wrong < 1e-5 * np.abs(arriving).max(axis=1))
+
+
 @pytest.mark.parametrize("rail", [SLEEPERS, BED])
 @pytest.mark.parametrize("quantity", ["moment_vertical", "shear_vertical", "displacement_z"])
 @pytest.mark.parametrize("spans", [(36.0,), (20.0, 16.0)])
