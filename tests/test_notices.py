@@ -147,6 +147,10 @@ def test_ends_that_move_spoil_accelerations_and_that_is_said():
     deck = rb.Beam("soft", (30.0,), 10e3, 5e10, bearings=soft).deck(damping=0.02)
     run = rb.cross(rb.AxleTrain([0.0], [1e5]), deck, speed=40.0)
     assert any(t.startswith("An end of the deck moves") for t in said(run))
+    assert not any("forces of wheels with mass" in t for t in said(run))
+    for contact in ("permanent", "hertz"):
+        run = rb.cross(rb.Train(WHEELED), deck, speed=40.0, contact=contact)
+        assert any("and forces of wheels with mass, are not to be trusted" in t for t in said(run))
 
 
 def test_a_car_that_carries_nothing_has_no_unloading():
@@ -172,6 +176,10 @@ def test_a_wheel_that_leaves_the_rail_is_named_with_place_and_time():
         len(part) for row in off for part in "".join("x" if o else " " for o in row).split()
     )
     assert f"leaves the rail for {samples:g} ms at t = " in text and "of car 1" in text
+    heaviest = -run.wheel_forces[:, 1].min()
+    assert f"presses with {heaviest / 1e3:.3g} kN at t = " in text
+    times = heaviest / run.train.wheels[0].static_load
+    assert times > 2.0 and f"{times:.3g} times its load at rest: an upper bound" in text
     pulled = rb.cross(rb.Train(WHEELED), DECK, SHORT, **options)
     (text,) = (t for t in said(pulled) if "pulls on the rail" in t)
     assert text.endswith("it would lift off, which contact = 'hertz' computes.")

@@ -31,6 +31,8 @@ GROWING = 0.01
 """Smallest change that, larger than one before it, is called a divergence."""
 BLOW = 0.02
 """Share of the static wheel force from which on a blow at the deck's ends is told of."""
+LANDING = 2.0
+"""Force of a wheel over its static one from which on it is told, where any wheel lifts."""
 _STILL = 1e-3
 """Motion of a deck's end, share of its largest, below which it is at rest."""
 
@@ -50,7 +52,7 @@ def remarks(run: Crossing) -> tuple[Remark, ...]:
     found += _solved_otherwise(run)
     found += _parted(run) if run.settings.contact == "hertz" else _pulling(run)
     found += _lifting(run)
-    found += _moving_ends(run.deck)
+    found += _moving_ends(run.train, run.deck)
     found += _broken_track(run)
     found += _measured(run.track)
     return tuple(found)
@@ -67,7 +69,7 @@ def remarks_before(
     found += _coarse(deck, settings)
     found += _coarse_contact(train, settings)
     found += _apart(train, deck, track, settings)
-    found += _moving_ends(deck)
+    found += _moving_ends(train, deck)
     found += _measured(track)
     return tuple(found)
 
@@ -238,8 +240,24 @@ def _parted(run: Crossing) -> list[Remark]:
         f"{_place(run.settings.speed * t - wheel.delay, run.deck.length)}"
         + f"; {others} other wheel{'s' * (others > 1)} too, not longer" * bool(others)
         + "."
+        + _landing(run)
     )
     return [ResultWarning("", text)]
+
+
+def _landing(run: Crossing) -> str:
+    """Return in words how hard the wheel presses that presses hardest, where that is much."""
+    static = np.array([wheel.static_load for wheel in run.train.wheels])
+    times = -run.wheel_forces[:, 1] / static[:, None]
+    i, k = np.unravel_index(np.argmax(times), times.shape)
+    if times[i, k] < LANDING:
+        return ""
+    wheel = run.train.wheels[i]
+    return (
+        f" Wheel {wheel.number} of car {wheel.car} presses with {times[i, k] * static[i] / 1e3:.3g} "
+        f"kN at t = {run.time[k]:.4g} s, {times[i, k]:.3g} times its load at rest: an upper bound, "
+        "since rails and sleepers do not give way below it."
+    )
 
 
 def _pulling(run: Crossing) -> list[Remark]:
@@ -315,14 +333,17 @@ def ends_move(deck: Deck) -> bool:
     return bool(max(vertical[0], vertical[-1]) > _STILL * vertical.max())
 
 
-def _moving_ends(deck: Deck) -> list[Remark]:
+def _moving_ends(train: AnyTrain, deck: Deck) -> list[Remark]:
     """Say that a wheel steps at full weight, or in parts of it, onto an end that moves."""
     if not ends_move(deck):
         return []
     how = "at full weight" if deck.rail is None else "by quarters and halves of their weight"
+    what = "accelerations"
+    if any(vehicle.wheelsets for vehicle, _ in train.kinds()):
+        what = "accelerations, and forces of wheels with mass,"
     text = (
         "An end of the deck moves (elastic bearings, piers or an overhang): wheels step on or off "
-        f"there {how}, so accelerations are not to be trusted. Try a rail on a bed, "
+        f"there {how}, so {what} are not to be trusted. Try a rail on a bed, "
         "deck.rail = { bending_stiffness = 1.28e7, foundation = 1e8 }."
     )
     return [ResultWarning("", text)]

@@ -52,7 +52,10 @@ NUMBERS: dict[str, tuple[str, str, Callable[[Crossing], float]]] = {
         "of bare axle loads", _ride,
     ),
     "deviation_from_rigid": ("%", "Eq. 3 of the last pass against the rigid deck", _deviation),
-    "iterations": ("-", "passes after the rigid deck", lambda run: float(run.iterations)),
+    "iterations": (
+        "-", "passes after the rigid deck, 0 without iteration; the most of one window where "
+        "several were iterated", lambda run: float(run.solves),
+    ),
 }  # fmt: skip
 """What a study can be asked for of a whole crossing: unit, meaning, and how a run is asked."""
 
