@@ -238,7 +238,7 @@ LONG = rb.Beam(
         ),
         (
             {"train": rb.Train(rb.with_wheelsets(CAR, mass=1e-6, roll_inertia=1000.0))},
-            "train.vehicle: xia2000 on its contacts, 8.12e+06 Hz, asks for steps of 6.85e-09 s; ",
+            "train.vehicle: xia2000 on its contacts, 8.11e+06 Hz, asks for steps of 6.85e-09 s; ",
         ),
         (
             {

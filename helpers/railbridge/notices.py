@@ -252,11 +252,11 @@ def _landing(run: Crossing) -> str:
     i, k = np.unravel_index(np.argmax(times), times.shape)
     if times[i, k] < LANDING:
         return ""
-    wheel = run.train.wheels[i]
+    wheel, force = run.train.wheels[i], -run.wheel_forces[i, 1, k]
     return (
-        f" Wheel {wheel.number} of car {wheel.car} presses with {times[i, k] * static[i] / 1e3:.3g} "
-        f"kN at t = {run.time[k]:.4g} s, {times[i, k]:.3g} times its load at rest: an upper bound, "
-        "since rails and sleepers do not give way below it."
+        f" Wheel {wheel.number} of car {wheel.car} presses with {force / 1e3:.3g} kN at "
+        f"t = {run.time[k]:.4g} s, {times[i, k]:.3g} times its load at rest: an upper bound, since "
+        "rails and sleepers do not give way below it."
     )
 
 
