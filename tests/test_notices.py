@@ -8,7 +8,8 @@ import pytest
 
 import railbridge as rb
 from railbridge import notices
-from railbridge.notices import remarks, unsettled
+from railbridge.notices import remarks, remarks_before, unsettled
+from railbridge.settings import check
 
 CAR = rb.vehicle("xia2000")
 DECK = rb.deck("viaduct36")
@@ -223,3 +224,41 @@ def test_wheels_with_mass_are_told_of_the_break_at_the_ends_of_a_deck():
     railed = rb.cross(rb.Train(WHEELED), replace(DECK, rail=bed), **options)
     assert not any("meet a break" in t for t in said(railed))
     assert not any("meet a break" in t for t in said(rb.cross(rb.Train(CAR), DECK, **options)))
+
+
+def test_a_track_that_begins_at_once_is_told_of_below_wheels_with_mass():
+    deck = replace(DECK, rail=rb.Rail(bending_stiffness=1.28e7, foundation=1e8))
+    waves, options = rb.Track(rb.Harmonic(1e-3, wavelength=3.0)), {"speed": 60.0, "tail": 0.1}
+    slope = 2 * np.pi * 1e-3 / 3.0
+    massless = rb.planar_car(CAR)
+    for car, lead_in, told in ((WHEELED, 0.0, 1), (WHEELED, 60.0, 0), (massless, 0.0, 0)):
+        settings = check(rb.Train(car), deck, waves, lead_in=lead_in, **options)
+        found = [
+            str(r) for r in remarks_before(rb.Train(car), deck, waves, settings)
+            if "begins at x = 0" in str(r)
+        ]  # fmt: skip
+        assert len(found) == told
+        if told:
+            blow = 60.0 * slope * np.sqrt(WHEELED.contact_stiffness[0, 1] * 1800.0)
+            assert (
+                f"slope of {1e3 * slope:.2g} mrad" in found[0]
+                and f"{blow / 1e3:.3g} kN" in found[0]
+            )
+            run = rb.cross(rb.Train(car), deck, waves, lead_in=lead_in, **options)
+            assert found[0] in said(run)
+            # It is that much: an axle with its mass alone, soon after it met the slope.
+            first = run.wheel_forces[0, 1][(run.time >= 0.0) & (run.time < 0.01)]
+            static = WHEELED.contacts[0].static_load
+            assert np.abs(first + static).max() == pytest.approx(blow, rel=0.1)
+
+
+@pytest.mark.parametrize("interaction", ["direct", "rigid", "iterate"])
+def test_passes_asked_for_where_none_are_made_are_told_of(interaction):
+    given = {"iterations": 4, "relaxation": 0.5, "interaction": interaction}
+    run = rb.cross(rb.Train(CAR), DECK, speed=20.0, tail=0.0, **given)
+    expected = [
+        f"iterations = 4: has no effect with interaction = '{interaction}'.",
+        f"relaxation = 0.5: has no effect with interaction = '{interaction}'.",
+    ]
+    found = [text for text in said(run) if "has no effect" in text]
+    assert found == (expected if interaction != "iterate" else [])
