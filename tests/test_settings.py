@@ -237,6 +237,17 @@ LONG = rb.Beam(
             "track: 0.0001 m of irregularity ask for steps of 2.5e-07 s; this run would need",
         ),
         (
+            {"train": rb.Train(rb.with_wheelsets(CAR, mass=1e-6, roll_inertia=1000.0))},
+            "train.vehicle: xia2000 on its contacts, 8.11e+06 Hz, asks for steps of 6.85e-09 s; ",
+        ),
+        (
+            {
+                "train": rb.Train(rb.with_wheelsets(CAR, mass=1800.0, roll_inertia=1e-6)),
+                "contact": "hertz",
+            },
+            "train.vehicle: xia2000 on its contacts, 6.21e+06 Hz, asks for steps of 2.01e-08 s; ",
+        ),
+        (
             {"train": rb.Train(rb.sprung_mass("m", 1e3, 1e6, length=1e5), cars=2)},
             "train.vehicle = 'm': cars are 5e+04 m apart or long; this run",
         ),

@@ -164,6 +164,13 @@ class Crossing:
         return len(self.passes) - 1
 
     @property
+    def solves(self) -> int:
+        """Passes after the rigid deck; 0 without iteration, the most of one window of several."""
+        if self.settings.interaction != "iterate":
+            return 0
+        return self.iterations if self.windows is None else int(self.windows.passes.max())
+
+    @property
     def ratios(self) -> np.ndarray:
         """Ratio of successive changes: the contraction, shape (iterations - 1,)."""
         changes = np.array(self.changes)

@@ -561,8 +561,32 @@ def _sizes(
         remedy = "Use a larger step or leave it out to have it chosen"
         found.append(("time_step", s.time_step, 1e-3 / s.time_step, "", remedy))
     else:
-        notch = min([n.shortest for n in train.notches], default=np.inf)
-        field, what = ("train", "notch") if notch < track.shortest else ("track", "irregularity")
-        words = f"{_shortest(train, track):.3g} m of {what} ask for steps of {s.time_step:.3g} s; "
-        found.append((field, None, 1e-3 / s.time_step, words, metres))
+        field, words, remedy = _finest(train, track, asked)
+        words += f" ask{'s' * (field == 'train.vehicle')} for steps of {s.time_step:.3g} s; "
+        found.append((field, None, 1e-3 / s.time_step, words, remedy))
     return found
+
+
+def _finest(train: AnyTrain, track: Track, asked: Options) -> tuple[str, str, str]:
+    """Return what asks for the finest steps: field, words, remedy. Modes never ask for as fine."""
+    notch = min([n.shortest for n in train.notches], default=np.inf)
+    field, what = ("train", "notch") if notch < track.shortest else ("track", "irregularity")
+    shortest = _shortest(train, track)
+    found = [
+        (
+            shortest / asked.speed / (2 * SAMPLES_PER_LENGTH),
+            field,
+            f"{shortest:.3g} m of {what}",
+            "Give lengths in m",
+        )
+    ]
+    for vehicle, _ in train.kinds():
+        asking = [(vehicle.contact_frequency, SAMPLES_PER_CONTACT)]
+        if asked.contact == "hertz":
+            asking.append((vehicle.highest_frequency, COARSE_SAMPLES_PER_CONTACT))
+        for frequency, samples in asking:
+            if frequency:
+                words = f"{vehicle.name} on its contacts, {frequency:.3g} Hz,"
+                remedy = "Correct masses and inertias of wheelsets (kg, kg m2) and contacts (N/m)"
+                found.append((1.0 / frequency / samples, "train.vehicle", words, remedy))
+    return min(found)[1:]

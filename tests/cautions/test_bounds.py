@@ -64,6 +64,15 @@ SLIPS = [
     ("half_gauge", 980.0, "given in mm"),
     ("half_gauge", 98.0, "given in cm"),
     ("half_gauge", 9.8, "ten times too far"),
+    ("wheelset_radius", 0.0236, "its inertia given in t m2"),
+    ("wheelset_radius", 745.0, "its inertia given in kg mm2"),
+    ("wheelset_height", 460.0, "given in mm"),
+    ("wheelset_height", 46.0, "given in cm"),
+    ("contact_stiffness", 1.3e6, "given in N/mm or kN/m"),
+    ("contact_stiffness", 1.3e3, "given in kN/mm"),
+    ("contact_damping", 45.0, "a thousand times too large"),
+    ("series_stiffness", 6e3, "given in kN/m or N/mm"),
+    ("series_stiffness", 6.0, "given in kN/mm"),
     ("off_axis", 2400.0, "given in mm"),
     ("off_axis", -240.0, "given in cm"),
     ("off_axis", 24.0, "ten times too far"),
@@ -109,14 +118,15 @@ def test_bounds_are_told_in_words(name, words):
 LENGTHS = (
     "amplitude axle_gap axle_pause axle_reach bearing_sag bending_radius circumference half_gauge "
     "height notch_depth off_axis overhang pier_height pier_radius polar_radius sleepers span "
-    "wavelength width"
+    "wavelength wheelset_height wheelset_radius width"
 )
 UNITS = {
     "m": LENGTHS, "m2": "area", "m4": "second_moment", "m/s": "speed", "Hz": "vehicle_frequency",
-    "rad": "phase", "Pa": "youngs_modulus", "N": "axle_load car_load", "N/m": "bearing_shear",
+    "rad": "phase", "Pa": "youngs_modulus", "N": "axle_load car_load",
+    "N/m": "bearing_shear contact_stiffness series_stiffness",
     "kg": "body_mass wheelset_mass", "kg/m": "mass track_mass", "kg/m3": "density steel_density",
     "N m2": "rail_stiffness", "N/m2": "foundation",
-    "": "damping_frequency damping_ratio live_sag point_mass shear_share slope",
+    "": "contact_damping damping_frequency damping_ratio live_sag point_mass shear_share slope",
 }  # fmt: skip
 
 

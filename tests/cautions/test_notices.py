@@ -8,7 +8,8 @@ import pytest
 
 import railbridge as rb
 from railbridge.cautions import notices
-from railbridge.cautions.notices import remarks, unsettled
+from railbridge.cautions.notices import remarks, remarks_before, unsettled
+from railbridge.settings import check
 
 CAR = rb.vehicle("xia2000")
 DECK = rb.deck("viaduct36")
@@ -147,6 +148,11 @@ def test_ends_that_move_spoil_accelerations_and_that_is_said():
     deck = rb.Beam("soft", (30.0,), 10e3, 5e10, bearings=soft).deck(damping=0.02)
     run = rb.cross(rb.AxleTrain([0.0], [1e5]), deck, speed=40.0)
     assert any(t.startswith("An end of the deck moves") for t in said(run))
+    assert not any("forces of wheels with mass" in t for t in said(run))
+    for contact in ("permanent", "hertz"):
+        run = rb.cross(rb.Train(WHEELED), deck, speed=40.0, contact=contact)
+        words = "and the forces of wheels with mass are not to be trusted"
+        assert any(words in t for t in said(run))
 
 
 @pytest.mark.filterwarnings("ignore::railbridge.ResultWarning")
@@ -196,6 +202,10 @@ def test_a_wheel_that_leaves_the_rail_is_named_with_place_and_time():
         len(part) for row in off for part in "".join("x" if o else " " for o in row).split()
     )
     assert f"leaves the rail for {samples:g} ms at t = " in text and "of car 1" in text
+    heaviest = -run.wheel_forces[:, 1].min()
+    assert f"presses with {heaviest / 1e3:.3g} kN at t = " in text
+    times = heaviest / run.train.wheels[0].static_load
+    assert times > 2.0 and f"{times:.3g} times its load at rest: an upper bound" in text
     pulled = rb.cross(rb.Train(WHEELED), DECK, SHORT, **options)
     (text,) = (t for t in said(pulled) if "pulls on the rail" in t)
     assert text.endswith("it would lift off, which contact = 'hertz' computes.")
@@ -293,3 +303,41 @@ def test_wheels_with_mass_are_told_of_the_break_at_the_ends_of_a_deck():
     railed = rb.cross(rb.Train(WHEELED), replace(DECK, rail=bed), **options)
     assert not any("meet a break" in t for t in said(railed))
     assert not any("meet a break" in t for t in said(rb.cross(rb.Train(CAR), DECK, **options)))
+
+
+def test_a_track_that_begins_at_once_is_told_of_below_wheels_with_mass():
+    deck = replace(DECK, rail=rb.Rail(bending_stiffness=1.28e7, foundation=1e8))
+    waves, options = rb.Track(rb.Harmonic(1e-3, wavelength=3.0)), {"speed": 60.0, "tail": 0.1}
+    slope = 2 * np.pi * 1e-3 / 3.0
+    massless = rb.planar_car(CAR)
+    for car, lead_in, told in ((WHEELED, 0.0, 1), (WHEELED, 60.0, 0), (massless, 0.0, 0)):
+        settings = check(rb.Train(car), deck, waves, lead_in=lead_in, **options)
+        found = [
+            str(r) for r in remarks_before(rb.Train(car), deck, waves, settings)
+            if "begins at x = 0" in str(r)
+        ]  # fmt: skip
+        assert len(found) == told
+        if told:
+            blow = 60.0 * slope * np.sqrt(WHEELED.contact_stiffness[0, 1] * 1800.0)
+            assert (
+                f"slope of {1e3 * slope:.2g} mrad" in found[0]
+                and f"{blow / 1e3:.3g} kN" in found[0]
+            )
+            run = rb.cross(rb.Train(car), deck, waves, lead_in=lead_in, **options)
+            assert found[0] in said(run)
+            # It is that much: an axle with its mass alone, soon after it met the slope.
+            first = run.wheel_forces[0, 1][(run.time >= 0.0) & (run.time < 0.01)]
+            static = WHEELED.contacts[0].static_load
+            assert np.abs(first + static).max() == pytest.approx(blow, rel=0.1)
+
+
+@pytest.mark.parametrize("interaction", ["direct", "rigid", "iterate"])
+def test_passes_asked_for_where_none_are_made_are_told_of(interaction):
+    given = {"iterations": 4, "relaxation": 0.5, "interaction": interaction}
+    run = rb.cross(rb.Train(CAR), DECK, speed=20.0, tail=0.0, **given)
+    expected = [
+        f"iterations = 4: has no effect with interaction = '{interaction}'.",
+        f"relaxation = 0.5: has no effect with interaction = '{interaction}'.",
+    ]
+    found = [text for text in said(run) if "has no effect" in text]
+    assert found == (expected if interaction != "iterate" else [])

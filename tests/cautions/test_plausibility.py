@@ -767,3 +767,43 @@ def test_a_random_track_in_the_wrong_unit_is_doubted():
     assert "given in mm" in found[0].text
     usual = rb.RandomTrack("fra-aar-1", seed=1)
     assert not doubts(train, deck, usual, check(train, deck, usual, speed=20.0))
+
+
+# ---- wheelsets with mass
+
+
+@pytest.mark.parametrize(
+    ("wheelsets", "words"),
+    [
+        ({"contact_stiffness": 1.3e6}, "contact of .* = 1.3e.06 N/m.*given in N/mm or kN/m"),
+        ({"contact_stiffness": 9e11}, "contact of .* = 9e.11 N/m"),
+        ({"gauge": 0.1}, "distance of wheels = 0.05 m"),
+        ({"roll_inertia": 1.0}, "radius of gyration of .* in roll.*its inertia given in t m2"),
+        ({"roll_inertia": 1e9}, "radius of gyration of .* in roll"),
+        ({"contact_damping": 1e8}, "contact damping of .* = 45.*a thousand times too large"),
+        ({"height": 46.0}, "height of .* = 46 m.*given in cm"),
+        ({"height": -460.0}, "height of .* = -460 m.*given in mm"),
+    ],
+)
+def test_slips_in_wheelsets_are_doubted(wheelsets, words):
+    usual = {"mass": 1800.0, "roll_inertia": 1000.0}
+    car, deck = rb.vehicle("xia2000"), rb.deck("viaduct36")
+    for changes, expected in ((usual, 0), (usual | wheelsets, 1)):
+        train = rb.Train(rb.with_wheelsets(car, **changes))
+        settings = check(train, deck, rb.Track(), speed=20.0, time_step=1e-3, tail=0.0)
+        found = [str(w) for w in doubts(train, deck, rb.Track(), settings)]
+        assert len(found) == expected
+    assert re.match(r"train\.vehicle \(xia2000\): " + words, found[0])
+
+
+def test_a_soft_spring_in_series_with_a_damper_is_doubted():
+    car, deck = rb.planar_car(rb.vehicle("xia2000")), rb.deck("viaduct36")
+    for series, expected in ((6e6, 0), (6.0, 1)):
+        springs = tuple(
+            s if s.on_rail else replace(s, series_stiffness=(0.0, series)) for s in car.springs
+        )
+        train = rb.Train(replace(car, springs=springs))
+        settings = check(train, deck, rb.Track(), speed=20.0)
+        found = [str(w) for w in doubts(train, deck, rb.Track(), settings)]
+        assert len(found) == expected
+    assert "spring in series with a damper = 6 N/m" in found[0] and "given in kN/mm" in found[0]

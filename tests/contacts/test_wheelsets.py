@@ -405,3 +405,16 @@ def test_a_wheelset_without_a_spring_and_names_twice_are_refused():
     with pytest.raises(rb.InputError, match=r"springs\[1\]\.to = 'axel'.*Did you mean 'axle'"):
         wrong = rb.Spring("car", "axel", (0.0, 0.0, 0.5), (0.0, 1e6), (0.0, 0.0))
         on_wheelsets("one", [car], [wrong, spring], [axle])
+
+
+def test_a_wheelset_with_the_name_of_a_body_is_named():
+    body = rb.Body("m", 8e3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), ("z",))
+    spring = rb.Spring("m", "rail", (0.0, 0.0, 0.0), (0.0, 1e6), (0.0, 1e4))
+    with pytest.raises(rb.InputError, match=r"wheelsets\[1\].name = 'm': is the name of a body"):
+        on_wheelsets("car", [body], [spring], [Wheelset("m", 0.0, 1500.0, gauge=0.0)])
+
+
+def test_what_belongs_to_wheelsets_is_refused_without_their_mass():
+    parameters = rb.car_parameters("xia2000_wheelsets") | {"wheelset_mass": 0.0}
+    with pytest.raises(rb.InputError, match="wheelset_roll_inertia = 1000.0: has no meaning"):
+        rb.two_bogie_car("car", **parameters)

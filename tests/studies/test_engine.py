@@ -103,3 +103,12 @@ def test_more_numbers_come_from_the_whole_run(case):
 def test_an_unknown_number_is_refused_with_the_nearest():
     with pytest.raises(rb.InputError, match="Did you mean 'wheel_unloading'"):
         asked_of((), ("wheel_unload",))
+
+
+@pytest.mark.parametrize("interaction", ["direct", "rigid", "iterate"])
+def test_passes_are_those_of_the_summary(case, interaction):
+    case = case.replace({"run.interaction": interaction, "run.iterations": None, "run.tail": 0.0})
+    told = case.summary(case.compute())["iterations"]
+    (row,) = respond(case.deck, [job_of(case)], asked_of((), ("iterations",)))
+    assert row.numbers(asked_of((), ("iterations",))) == {"iterations": told}
+    assert (told > 2) == (interaction == "iterate")

@@ -130,10 +130,10 @@ def _refuse_mixture(p: dict[str, float]) -> None:
     if p.get("wheelset_mass") and "wheelset_roll_inertia" not in p:
         remedy = "Give it, kg m2; for the weight alone call the mass static_wheelset_mass"
         raise InputError("wheelset_roll_inertia", None, "is missing", remedy)
-    if "wheelset_mass" in p:
+    if p.get("wheelset_mass"):
         return
     for key in _OF_WHEELSETS.values():
-        if key in p:
+        if key in p and key != "wheelset_mass":
             allowed = "has no meaning without wheelset_mass: massless wheels stand on the rail"
             raise InputError(key, p[key], allowed, "Add wheelset_mass, or leave it out")
 

@@ -80,7 +80,7 @@ def summarize(
         "deck_mode_names": list(deck.mode_names),
         "remarks": [str(remark) for remark in remarks],
         "converged": run.converged if iterated else None,
-        "iterations": _passes(run) if iterated else 0,
+        "iterations": run.solves,
         "windows": None if run.windows is None else len(run.windows.stops),
         "changes": list(run.changes) if iterated else None,
         "deviation_percent": _deviations(run),
@@ -116,11 +116,6 @@ def _rail(deck: Deck) -> dict[str, float] | None:
 def to_json(summary: dict[str, Any]) -> str:
     """Return a summary as the text of ``summary.json``; what is not finite becomes null."""
     return json.dumps(_plain(summary), indent=1, allow_nan=False, ensure_ascii=False) + "\n"
-
-
-def _passes(run: Crossing) -> int:
-    """Return the solves after the rigid one; of several windows the most that one took."""
-    return run.iterations if run.windows is None else int(run.windows.passes.max())
 
 
 # ---- histories

@@ -202,6 +202,30 @@ BOUNDS = {
         "mass of a wheelset", 250.0, 1e4, "kg", "light trams to driven axles with their motors",
         ((10.0, "ten times too light"), (0.1, "ten times too heavy")), (600.0, 3e3),
     ),
+    "wheelset_radius": Bound(
+        "radius of gyration of a wheelset in roll or yaw", 0.15, 1.5, "m",
+        "wheels 0.19 m (narrowest gauge) to 0.84 m from the middle",
+        ((1e1**1.5, "its inertia given in t m2"), (1e-3, "its inertia given in kg mm2")),
+        (0.3, 1.1),
+    ),
+    "wheelset_height": Bound(
+        "centre of a wheelset above the rail", 0.0, 1.2, "m",
+        "wheels of 0.17 to 0.7 m, and springs placed at rail level", _IN_M, (0.15, 0.75),
+    ),
+    "contact_stiffness": Bound(
+        "contact of a wheel with mass on the rail", 1e8, 2e10, "N/m",
+        "steel on steel 1e9 to 2e9 a wheel (Hertz)",
+        ((1e3, "given in N/mm or kN/m"), (1e6, "given in kN/mm")), (5e8, 6e9),
+    ),
+    "contact_damping": Bound(
+        "damping of a wheelset bouncing on its contacts, share of critical", 0.0, 1.0, "",
+        "it rings on the rail; 100 kN s/m a wheel are 0.05",
+        ((1e-3, "a thousand times too large"),),
+    ),
+    "series_stiffness": Bound(
+        "spring in series with a damper", 2e4, np.inf, "N/m", "rubber and mountings some 1e6",
+        ((1e3, "given in kN/m or N/mm"), (1e6, "given in kN/mm")), (5e5, 1e9),
+    ),
     "car_load": Bound(
         "weight of a car over its axles", 5e3, 1e6, "N",
         "a light trolley to axles of 40 t; 1e6 where one wheel stands for a car",
@@ -211,7 +235,8 @@ BOUNDS = {
         "lowest frequency of a vehicle", 0.1, np.inf, "Hz", "cars sway at 0.4 Hz and more"
     ),
     "half_gauge": Bound(
-        "wheels from the middle of their car", 0.0, 2.0, "m", "broad gauge has 0.84",
+        "wheels from the middle of their car, where they stand apart", 0.15, 2.0, "m",
+        "a gauge of 0.38 m has 0.19, broad gauge 0.84",
         (*_IN_M, (0.1, "ten times too far")), (0.3, 1.2),
     ),
     "off_axis": Bound(

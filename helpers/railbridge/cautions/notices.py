@@ -46,6 +46,8 @@ LANDING = 6.0
 """Samples in a period of a wheelset on its contacts with which a landing is all wrong."""
 LANDS_OFF = 0.05
 """Share of a landing's force from which on its error is told of."""
+HARD = 2.0
+"""Force of a wheel over its static one from which on it is told, where any wheel lifts."""
 _STILL = 1e-3
 """Motion of a deck's end, share of its largest, below which it is at rest."""
 
@@ -82,6 +84,8 @@ def remarks_before(
     found += _coarse_contact(train, settings)
     tracks = (track, *others)
     found += [remark for own in tracks for remark in _apart(train, deck, own, settings)]
+    found += _starting_at_once(train, track, settings)
+    found += _without_effect(settings)
     found += _moving_ends(train, deck)
     found += [remark for own in tracks for remark in _measured(own)]
     return tuple({str(remark): remark for remark in found}.values())
@@ -276,6 +280,7 @@ def _parted(run: Crossing) -> list[Remark]:
         f"{_place(run.settings.speed * t - wheel.delay, run.deck.length)}"
         + f"; {others} other wheel{'s' * (others > 1)} too, not longer" * bool(others)
         + "."
+        + _landing(run)
     )
     contact = run.train.car(wheel.car).vehicle.contact_damping[wheel.number - 1]
     if not contact[1]:
@@ -308,6 +313,21 @@ def _coarse_landing(run: Crossing) -> list[Remark]:
         f"{100 * off:.2g} %. At most {np.sqrt(LANDS_OFF) / LANDING / frequency:.2g} s would do."
     )
     return [ResultWarning("time_step", text)]
+
+
+def _landing(run: Crossing) -> str:
+    """Return in words how hard the wheel presses that presses hardest, where that is much."""
+    static = np.array([wheel.static_load for wheel in run.train.wheels])
+    times = -run.wheel_forces[:, 1] / static[:, None]
+    i, k = np.unravel_index(np.argmax(times), times.shape)
+    if times[i, k] < HARD:
+        return ""
+    wheel, force = run.train.wheels[i], -run.wheel_forces[i, 1, k]
+    return (
+        f" Wheel {wheel.number} of car {wheel.car} presses with {force / 1e3:.3g} kN at "
+        f"t = {run.time[k]:.4g} s, {times[i, k]:.3g} times its load at rest: an upper bound, since "
+        "rails and sleepers do not give way below it."
+    )
 
 
 def _pulling(run: Crossing) -> list[Remark]:
@@ -399,34 +419,70 @@ def _moving_ends(train: AnyTrain, deck: Deck) -> list[Remark]:
     return [ResultWarning("", text)]
 
 
-def _broken_track(run: Crossing) -> list[Remark]:
-    """Say how hard wheels with mass are struck where the track breaks at the ends of the deck.
+def _starting_at_once(train: AnyTrain, track: Track, settings: Settings) -> list[Remark]:
+    """Say how hard wheels with mass are struck where the track begins without a run-up."""
+    if settings.lead_in > 0.0:
+        return []
+    start = np.zeros(1)
+    sides = (track.rail("vertical", side) for side in ("left", "right"))
+    slope = max(abs(float(rail.slope(start)[0])) for rail in sides)
+    share, blow = _blow(train, settings.speed * slope)
+    if share < BLOW:
+        return []
+    text = (
+        f"= 0: the track begins at x = 0 with a slope of {1e3 * slope:.2g} mrad at once, which "
+        f"strikes each wheel with mass with up to about {blow / 1e3:.3g} kN. Leave it out, so that "
+        "the train runs up to the deck."
+    )
+    return [ResultWarning("lead_in", text)]
 
-    There a wheel is given the speed V theta at once, theta the rotation of the end, and a mass m on
-    a spring k answers with the force ``V theta sqrt(k m)``.
-    """
-    deck, worst = run.deck, (0.0, 0.0)
+
+def _without_effect(settings: Settings) -> list[Remark]:
+    """Name what is given for passes where none are made."""
+    if settings.interaction == "iterate":
+        return []
+    return [
+        Remark(name, f"= {value}: has no effect with interaction = {settings.interaction!r}.")
+        for name in ("iterations", "relaxation")
+        if (value := getattr(settings, name)) is not None
+    ]
+
+
+def _broken_track(run: Crossing) -> list[Remark]:
+    """Say how hard wheels with mass are struck where the track breaks at the ends of the deck."""
+    deck = run.deck
     if not deck.parts or run.settings.interaction == "rigid":
         return []
     ends = deck.shapes(np.array([0.0, deck.length]), 1)[:, :, 1] @ run.state.q
     angle = float(np.abs(ends).max())
-    for vehicle, _ in run.train.kinds():
+    share, blow = _blow(run.train, run.settings.speed * angle)
+    if share < BLOW:
+        return []
+    text = (
+        f"Wheels with mass meet a break of the track where the deck's ends turn, {1e3 * angle:.2g} "
+        f"mrad at most: it strikes each with up to about {blow / 1e3:.3g} kN, which a real "
+        "rail softens. Try a rail on a bed, "
+        "deck.rail = { bending_stiffness = 1.28e7, foundation = 1e8 }."
+    )
+    return [ResultWarning("", text)]
+
+
+def _blow(train: AnyTrain, rate: float) -> tuple[float, float]:
+    """Return the largest force of a wheel with mass that is given a speed (m/s) at once.
+
+    A mass m on a spring k answers with ``v sqrt(k m)``; as a share of the static force, and in N.
+    """
+    worst = 0.0, 0.0
+    for vehicle, _ in train.kinds():
         for body in vehicle.wheelsets:
             for contact, k in zip(vehicle.contacts, vehicle.contact_stiffness[:, 1], strict=True):
                 if contact.body != body.name:
                     continue
                 own = body.mass / sum(c.body == body.name for c in vehicle.contacts)
-                blow = run.settings.speed * angle * np.sqrt(k * own)
-                worst = max(worst, (blow / contact.static_load, blow))
-    if worst[0] < BLOW:
-        return []
-    text = (
-        f"Wheels with mass meet a break of the track where the deck's ends turn, {1e3 * angle:.2g} "
-        f"mrad at most: it strikes each with up to about {worst[1] / 1e3:.3g} kN, which a real "
-        "rail softens. Try a rail on a bed, "
-        "deck.rail = { bending_stiffness = 1.28e7, foundation = 1e8 }."
-    )
-    return [ResultWarning("", text)]
+                blow = rate * np.sqrt(k * own)
+                if contact.static_load > 0.0:
+                    worst = max(worst, (blow / contact.static_load, blow))
+    return worst
 
 
 def _measured(track: Track) -> list[Remark]:

@@ -51,7 +51,9 @@ def _of_vehicle(vehicle: Vehicle) -> list[InputWarning]:
         ("weight over axles", "car_load", load or None),  # none without vertical freedoms
         ("smallest axle distance", "axle_gap", float(gaps.min()) if len(gaps) else None),
         ("largest axle distance", "axle_reach", float(gaps.max()) if len(gaps) else None),
-        ("distance of wheels", "half_gauge", max(abs(wheel.y) for wheel in vehicle.contacts)),
+        ("distance of wheels", "half_gauge", _half_gauge(vehicle)),
+        *_of_wheelsets(vehicle),
+        ("spring in series with a damper", "series_stiffness", _softest_in_series(vehicle)),
     ]
     for what, name, value in checks:
         for wrong in doubt(name, "train.vehicle", value):
@@ -64,6 +66,35 @@ def _of_vehicle(vehicle: Vehicle) -> list[InputWarning]:
         text = f"({vehicle.name}): length = {vehicle.length:g} m, its wheel base is {base:g} m: "
         return [InputWarning("train.vehicle", text + "given in mm or cm?")]
     return []
+
+
+def _half_gauge(vehicle: Vehicle) -> float | None:
+    """Return what lies farthest beyond its bounds, m; None where all wheels stand at y = 0."""
+    apart = [wheel.y for wheel in vehicle.contacts if wheel.y]
+    return worst("half_gauge", apart) if apart else None
+
+
+def _softest_in_series(vehicle: Vehicle) -> float | None:
+    return min((k for spring in vehicle.springs for _, k, _ in spring.series), default=None)
+
+
+def _of_wheelsets(vehicle: Vehicle) -> list[tuple[str, str, float]]:
+    """Return what is held against `bounds` of wheelsets: words, name of the bound, value."""
+    found = []
+    for body in vehicle.wheelsets:
+        own = [i for i, wheel in enumerate(vehicle.contacts) if wheel.body == body.name]
+        k, c = vehicle.contact_stiffness[own, 1], vehicle.contact_damping[own, 1]
+        for freedom, inertia in zip(("roll", "yaw"), body.inertia[::2], strict=True):
+            if freedom in body.freedoms:
+                words = f"radius of gyration of {body.name} in {freedom}"
+                found.append((words, "wheelset_radius", float(np.sqrt(inertia / body.mass))))
+        critical = 2 * np.sqrt(k.sum() * body.mass)
+        found += [
+            (f"height of {body.name}", "wheelset_height", body.position[2]),
+            (f"contact of {body.name}", "contact_stiffness", worst("contact_stiffness", k)),
+            (f"contact damping of {body.name}", "contact_damping", float(c.sum() / critical)),
+        ]
+    return found
 
 
 def _of_body(body: Body, axle_load: float) -> list[InputWarning]:

@@ -201,7 +201,7 @@ def on_wheelsets(
         bars = tuple(anti_roll_bars)
         return Vehicle(name, (*bodies, *own), every, length, anti_roll_bars=bars)
 
-    _refuse_names(springs, wheelsets)
+    _refuse_names(bodies, springs, wheelsets)
     vehicle = standing(None)
     if all(wheelset.contact_stiffness is not None for wheelset in wheelsets):
         return vehicle
@@ -213,12 +213,18 @@ def on_wheelsets(
         return standing(loads)
 
 
-def _refuse_names(springs: Sequence[Spring], wheelsets: Sequence[Wheelset]) -> None:
+def _refuse_names(
+    bodies: Sequence[Body], springs: Sequence[Spring], wheelsets: Sequence[Wheelset]
+) -> None:
     names = [wheelset.name for wheelset in wheelsets]
+    taken = {body.name for body in bodies}
     ends = {end for spring in springs for end in (spring.from_, spring.to)}
     for i, name in enumerate(names, start=1):
         if names.count(name) > 1:
             raise InputError(f"wheelsets[{i}].name", name, "must be unique")
+        if name in taken:
+            remedy = "Give the wheelset another one, and its springs, too"
+            raise InputError(f"wheelsets[{i}].name", name, "is the name of a body", remedy)
         if name not in ends:
             remedy = "Give a spring from the body in which it hangs to this name"
             raise InputError(f"wheelsets[{i}].name", name, "no spring ends there", remedy)

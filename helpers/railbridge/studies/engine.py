@@ -55,7 +55,10 @@ NUMBERS: dict[str, tuple[str, str, Callable[[Crossing], float]]] = {
         "of bare axle loads", _ride,
     ),
     "deviation_from_rigid": ("%", "Eq. 3 of the last pass against the rigid deck", _deviation),
-    "iterations": ("-", "passes after the rigid deck", lambda run: float(run.iterations)),
+    "iterations": (
+        "-", "passes after the rigid deck, 0 without iteration; the most of one window where "
+        "several were iterated", lambda run: float(run.solves),
+    ),
     "left_open": (
         "-", "share of the wheel forces' dynamic part that further passes would still change",
         left_open,

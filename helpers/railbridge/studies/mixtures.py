@@ -141,7 +141,7 @@ def _extremes(
 def _numbers(
     runs: Sequence[Crossing], shares: np.ndarray, numbers: Sequence[str]
 ) -> list[np.ndarray]:
-    found = {"iterations": np.full(len(shares), float(runs[0].iterations))}
+    found = {"iterations": np.full(len(shares), float(runs[0].solves))}
     if {"wheel_unloading", "wheel_force_z"} & set(numbers):
         forces = np.array([run.wheel_forces[:, 1] for run in runs])
         lowest = np.array(
