@@ -31,6 +31,12 @@ SAMPLES_PER_CONTACT, COARSE_SAMPLES_PER_CONTACT = 18, 8
 Between samples the rail is a chord; a spring k above a mass m takes that for a force that is
 (w h)^2 / 12 of the mass's inertia off, w^2 = k/m: 1 % and 5 % of what the wheelset adds.
 """
+SAMPLES_PER_LANDING = 40
+"""The same in a step that is chosen for contacts that may part.
+
+A landing is over in a third of a period: its force is then within some 2 %, with 18 samples a sixth
+of it may be missing.
+"""
 LEAST_SAMPLES_PER_CONTACT = 3
 """Of a vehicle's fastest motion on Hertzian contacts; fewer are refused."""
 SAMPLES_PER_PERIOD = 8
@@ -75,7 +81,7 @@ class Options:
     time_step : float, optional
         s; chosen if left out: at most 1 ms, a twentieth of the shortest wave or notch, an eighth of
         the period of the deck's highest mode, and an eighteenth of that of a wheelset with mass on
-        its contacts (0.3 ms).
+        its contacts (0.3 ms), a fortieth where contacts may part.
     lead_in : float, optional
         m of irregular track before the deck; default 7.5 s of travel. 0: level track before the
         deck, the train at rest; wrong where the track then starts on the deck with a step (a phase
@@ -394,7 +400,8 @@ def _time_step(train: AnyTrain, deck: Guideway, track: Track, asked: Options) ->
         most = max(1.0 / fine, FINEST_STEP) if fine > 0.0 else np.inf
         if asked.contact == "hertz":  # also under masses that are no wheelsets
             fastest = max(vehicle.highest_frequency for vehicle, _ in train.kinds())
-            most = min(most, 1.0 / fastest / COARSE_SAMPLES_PER_CONTACT)
+            fine = SAMPLES_PER_LANDING * contact_frequency(train)
+            most = min(most, 1.0 / max(fine, fastest * COARSE_SAMPLES_PER_CONTACT))
         return default_time_step(train, track, speed, min(most, 1e-3))
     for length, samples, what in [
         (_shortest(train, track), SAMPLES_PER_LENGTH, "of irregularity"),
@@ -581,9 +588,11 @@ def _finest(train: AnyTrain, track: Track, asked: Options) -> tuple[str, str, st
         )
     ]
     for vehicle, _ in train.kinds():
-        asking = [(vehicle.contact_frequency, SAMPLES_PER_CONTACT)]
-        if asked.contact == "hertz":
-            asking.append((vehicle.highest_frequency, COARSE_SAMPLES_PER_CONTACT))
+        parts = asked.contact == "hertz"
+        asking = [
+            (vehicle.contact_frequency, SAMPLES_PER_LANDING if parts else SAMPLES_PER_CONTACT),
+            (parts * vehicle.highest_frequency, COARSE_SAMPLES_PER_CONTACT),
+        ]
         for frequency, samples in asking:
             if frequency:
                 words = f"{vehicle.name} on its contacts, {frequency:.3g} Hz,"

@@ -206,3 +206,19 @@ def test_iteration_0_of_hertzian_contacts_is_that_of_a_rigid_deck():
     assert again.wheel_forces == pytest.approx(soft.wheel_forces, abs=1e-9 * load)
     before = rb.spectra.deviation_percent(soft.spectrum, rigid.spectrum)
     assert soft.deviations.from_rigid[0] == pytest.approx(before, rel=1e-4)
+
+
+def test_a_chosen_step_follows_a_wheel_that_lands():
+    """A landing is over in a third of a period of the wheelset on its contact."""
+    car = rb.with_wheelsets(rb.vehicle("xia2000_planar"), mass=1800.0, contact_damping=100e3)
+    bed = rb.Rail(bending_stiffness=1.28e7, foundation=1e8)
+    deck = replace(rb.Beam("b", (LENGTH,), MASS, EI).deck(4, 0.01), rail=bed)
+    track = rb.Track(vertical=rb.Harmonic(4e-3, wavelength=3.0))
+    options = {"speed": 80.0, "contact": "hertz", "lead_in": 30.0, "tail": 0.1}
+    chosen = rb.cross(rb.Train(car), deck, track, **options)
+    assert chosen.parted.any()
+    assert not [r for r in rb.remarks(chosen) if r.field == "time_step"]
+    fine = rb.cross(rb.Train(car), deck, track, time_step=chosen.settings.time_step / 4, **options)
+    blows = [-run.wheel_forces[:, 1].min() for run in (chosen, fine)]
+    assert blows[1] > 5.0 * fine.train.wheels[0].static_load
+    assert blows[0] == pytest.approx(blows[1], rel=0.03)
