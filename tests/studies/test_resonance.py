@@ -83,6 +83,23 @@ def test_it_bounds_what_is_left_behind_and_comes_near(name):
     assert abs(worst - np.argmax(bound)) <= 1
 
 
+@pytest.mark.parametrize(
+    ("span", "stiffness", "name", "above"),
+    [(25.0, 3.1e10, "HSLM-A10", 0.03), (40.0, 1.2e11, "HSLM-A9", -0.11)],
+)
+def test_it_is_an_estimate_and_no_bound(span, stiffness, name, above):
+    """The two ends of what the module says of HSLM-A."""
+    own = rb.Beam("simple", (span,), MU, stiffness).deck(modes=1, damping=0.01)
+    train = rb.train(name)
+    f, d = own.frequencies_hz[0], repeated_distance(train)
+    speeds = np.linspace(0.9 * f * d, 1.1 * f * d, 161)
+    output = outputs_at(own, ("acceleration_z",), [span / 2])
+    peaks = constant_loads(own, train, speeds, output).largest[:, 0]
+    worst = np.argmax(peaks)
+    found = residual_acceleration(own, train, speeds)[worst] / peaks[worst] - 1.0
+    assert found == pytest.approx(above, abs=5e-3)
+
+
 def test_nothing_is_said_where_the_formula_divides_by_nothing():
     own, train = deck(), rb.AxleTrain((0.0,), (1e5,))
     critical = 2 * L * own.frequencies_hz[0]

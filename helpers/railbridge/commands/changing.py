@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import argparse
 import tomllib
+from collections.abc import Iterable
+from dataclasses import dataclass
 
 from .. import errors
 from ..cases import shelf, tables
 from ..cases.definition import Case, case
-from ..errors import InputError, InputWarning
-from .speech import say, warn
+from ..errors import InputError, InputWarning, Remark
+from .speech import Progress, say, warn
 
-__all__ = ["car_numbers", "changed_case", "is_deck", "options", "said_doubts"]
+__all__ = ["Begun", "begun", "car_numbers", "changed_case", "doubted", "is_deck", "options"]
 
 
 def options() -> argparse.ArgumentParser:
@@ -49,7 +51,38 @@ def changed_case(given: argparse.Namespace) -> Case:
     return case(given.case, changes)
 
 
-def said_doubts(loaded: Case, strict: bool) -> set[str]:
+@dataclass
+class Begun:
+    """What is told while a case is computed, and after it.
+
+    Attributes
+    ----------
+    doubts : set of str
+        What was said before.
+    progress : Progress
+    """
+
+    doubts: set[str]
+    progress: Progress
+
+    def end(self, remarks: Iterable[Remark]) -> None:
+        """Tell no more how far it is, and warn of what was not said before."""
+        self.progress.end()
+        warn(remark for remark in remarks if str(remark) not in self.doubts)
+
+
+def begun(given: argparse.Namespace, loaded: Case) -> Begun | None:
+    """Say what is unlikely to be meant, before work starts; None where that is refused."""
+    doubts = _said_doubts(loaded, given.strict)
+    return None if doubts and given.strict else Begun(doubts, Progress(given.quiet))
+
+
+def doubted(given: argparse.Namespace, loaded: Case) -> bool:
+    """Say what is unlikely to be meant; whether that is refused."""
+    return bool(_said_doubts(loaded, given.strict)) and given.strict
+
+
+def _said_doubts(loaded: Case, strict: bool) -> set[str]:
     """Print a line for whatever is unlikely to be meant, and return these lines."""
     doubts = [remark for remark in loaded.doubts if isinstance(remark, InputWarning)]
     if strict:

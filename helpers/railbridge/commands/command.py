@@ -31,7 +31,7 @@ from ..lessons import exercises, marking
 from ..results import Crossing
 from ..settings import bytes_needed
 from . import changing, copies, drawing, plotting, reporting, studying
-from .speech import Progress, nowhere, say, tell, warn
+from .speech import Progress, nowhere, say, tell
 
 __all__ = ["main"]
 
@@ -249,19 +249,17 @@ def _parser() -> argparse.ArgumentParser:
 
 def _run(given: argparse.Namespace) -> int:
     loaded = changing.changed_case(given)
-    doubts = changing.said_doubts(loaded, given.strict)
-    if doubts and given.strict:
+    begun = changing.begun(given, loaded)
+    if begun is None:
         return 2
-    progress = Progress(given.quiet)
     with staging.files(given.out, "--out", FILES) as folder:
         code = 0
         try:
-            run = loaded.compute(progress)
+            run = loaded.compute(begun.progress)
         except NotConvergedError as error:
             run, code, message = error.run, 3, str(error)
-        _write(folder, loaded, run, progress, not given.no_histories)
-    progress.end()
-    warn(remark for remark in loaded.remarks(run) if str(remark) not in doubts)
+        _write(folder, loaded, run, begun.progress, not given.no_histories)
+    begun.end(loaded.remarks(run))
     if code:
         say(f"{message} What there is was written to {given.out}.")
     elif unsettled(run):
@@ -317,7 +315,7 @@ def _check(given: argparse.Namespace) -> int:
     if changing.is_deck(given.case):
         return _check_deck(given)
     loaded = changing.changed_case(given)
-    if changing.said_doubts(loaded, given.strict) and given.strict:
+    if changing.doubted(given, loaded):
         return 2
     needed = bytes_needed(loaded.train, loaded.deck, loaded.settings, len(loaded.points))
     s = loaded.settings

@@ -18,7 +18,7 @@ from ..cases.ranges import written_range
 from ..cases.summary import to_json
 from ..errors import InputError
 from . import changing
-from .speech import Progress, tell, warn
+from .speech import Progress, tell
 
 __all__ = ["add_command"]
 
@@ -83,18 +83,17 @@ def _ensemble(given: argparse.Namespace) -> int:
         raise InputError("--measure", given.measure, "wheel_unloading is of wheels", remedy)
     cars = [] if given.wheels_of is None else changing.car_numbers("--wheels-of", given.wheels_of)
     loaded = changing.changed_case(given)
-    doubts = changing.said_doubts(loaded, given.strict)
-    if doubts and given.strict:
+    begun = changing.begun(given, loaded)
+    if begun is None:
         return 2
-    progress = Progress(given.quiet)
+    progress = begun.progress
     names = {"quantities": "--measure", "points": "--points", "car": "--wheels-of"}
     with staging.files(given.out, "--out", FILES) as folder:
         with errors.within(names=names):
             response = loaded.random_response(quantities, points, cars, progress)
         drawn = Drawn.of(loaded, response, given.realisations, progress)
         _write(folder, drawn, progress)
-    progress.end()
-    warn(remark for remark in drawn.remarks if str(remark) not in doubts)
+    begun.end(drawn.remarks)
     if not given.quiet:
         for line in drawn.headlines():
             tell(line)

@@ -13,7 +13,7 @@ from ..cases import staging
 from ..cautions import unsettled
 from ..crossing import NotConvergedError
 from . import changing
-from .speech import Progress, say, warn
+from .speech import say
 
 __all__ = ["add_command"]
 
@@ -83,10 +83,10 @@ def _plot(given: argparse.Namespace) -> int:
     with errors.within(names={"car": "--cars"}):
         for car in cars:
             loaded.train.car(car)
-    doubts = changing.said_doubts(loaded, given.strict)
-    if doubts and given.strict:
+    begun = changing.begun(given, loaded)
+    if begun is None:
         return 2
-    progress, message = Progress(given.quiet), ""
+    progress, message = begun.progress, ""
     names = [f"{name}.{form}" for name in gallery.file_names(loaded.points, cars, kinds)]
     drawn = 0
     with staging.files(given.out, "--out", names) as folder:
@@ -99,8 +99,7 @@ def _plot(given: argparse.Namespace) -> int:
             path = folder / f"{piece.name}.{form}"
             gallery.write(piece.draw(), path, form, dpi, piece.about)
             drawn += 1
-    progress.end()
-    warn(remark for remark in loaded.remarks(run) if str(remark) not in doubts)
+    begun.end(loaded.remarks(run))
     if message:
         say(f"{message} What there is was drawn all the same.")
     if not given.quiet:

@@ -16,7 +16,7 @@ from ..cautions import unsettled
 from ..crossing import NotConvergedError
 from ..errors import InputError
 from . import changing, studying
-from .speech import Progress, say, tell, warn
+from .speech import say, tell
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -131,10 +131,10 @@ def _refuse(given: argparse.Namespace, why: str, *names: str) -> None:
 def _of_run(given: argparse.Namespace, loaded: Case) -> int:
     from .. import reports
 
-    doubts = changing.said_doubts(loaded, given.strict)
-    if doubts and given.strict:
+    begun = changing.begun(given, loaded)
+    if begun is None:
         return 2
-    progress, code = Progress(given.quiet), 0
+    progress, code = begun.progress, 0
     try:
         run = loaded.compute(progress)
     except NotConvergedError as error:
@@ -143,8 +143,7 @@ def _of_run(given: argparse.Namespace, loaded: Case) -> int:
     if unsettled(run):
         code = NOT_SETTLED
     made = reports.report_of_run(loaded, run, title=given.title, progress=progress)
-    progress.end()
-    warn(remark for remark in loaded.remarks(run) if str(remark) not in doubts)
+    begun.end(loaded.remarks(run))
     _write(given, made)
     return code
 
@@ -155,10 +154,8 @@ def _of_run(given: argparse.Namespace, loaded: Case) -> int:
 def _over_speeds(given: argparse.Namespace, loaded: Case | None) -> int:
     from .. import reports
 
-    if loaded is not None:
-        doubts = changing.said_doubts(loaded, given.strict)
-        if doubts and given.strict:
-            return 2
+    if loaded is not None and changing.doubted(given, loaded):
+        return 2
     plan, asking = studying.envelope_plan(given, loaded)
     if loaded is None and not _sure(given, plan, asking):
         return 2

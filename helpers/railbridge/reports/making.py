@@ -7,28 +7,40 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from .. import errors
 from ..cases.definition import Case
 from ..cautions import unsettled
 from ..checks import Assessment
 from ..codes import Answer, Verdicts
 from ..crossing import NotConvergedError
-from ..decks import Deck
 from ..errors import InputError, Remark
 from ..results import Crossing
 from ..trains import AnyTrain
-from .assumptions import assumptions, left_out
+from .assumptions import left_out
 from .document import Report
-from .inputs import file_tables, modes_table, resolved_deck, resolved_train, tables_of_case
+from .frame import (
+    about_speeds,
+    assumed,
+    framed,
+    in_short,
+    inputs_section,
+    key_table,
+    modes_section,
+    quiet,
+    results_over_speeds,
+    short_over_speeds,
+    speed_in_words,
+    train_in_words,
+    trains_table,
+)
+from .inputs import resolved_deck
 from .judgements import judged_run, requirements_table, verdicts_section
 from .outcomes import key_results, tables_of_summary
-from .overspeeds import failures, key_peaks, of_study, peaks, pictures, whole
-from .parts import Column, Notes, Section, Table, Words, in_km_h, shown
-from .pictures import modes, of_run, sketches, track_picture
+from .overspeeds import failures, of_study, whole
+from .parts import Notes, Section, Table, Words, shown
+from .pictures import of_run, sketches
 from .places import refuse_foreign
-from .receipts import choices, input_files, inputs, made_in_python, names_only, programs
+from .receipts import choices, inputs, made_in_python, names_only
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -138,30 +150,25 @@ def report_of_run(
     verdicts = judged_run(case, run) if verdicts is None else verdicts
     summary, remarks = case.summary(run), case.remarks(run)
     speed = case.settings.speed
-    about = (
-        f"{_train(case.train)} over {case.deck.name}, {case.deck.length:g} m, at {_speed(speed)}"
-    )
+    about = f"{train_in_words(case.train)} over {case.deck.name}, {case.deck.length:g} m, "
+    about += f"at {speed_in_words(speed)}"
     trouble = ""
     if run.converged is False:
         given = run.settings.iterations is not None
         trouble = "" if given and not unsettled(run) else _NOT_SETTLED if given else _NOT_CONVERGED
-    key = _key_table(key_results(summary), time="s")
     tell("pictures for the report")
-    sections = [
-        _in_short(key, remarks, trouble),
-        verdicts_section(verdicts, rules),
-        _inputs(case, {"": case.train}),
-        _modes(case.deck, case.settings.accelerations_up_to_hz),
-        Section("Results", (
-            *tables_of_summary(summary), *of_run(run, case.points.tolist()),
-        )),
-        _assumed(case, case.train),
-        Section("Receipt", (
-            choices(run.settings, case.deck, case.content, run), inputs(case.content), programs(),
-        )),
-    ]  # fmt: skip
-    verdict = "" if verdicts is None else verdicts.verdict
-    return Report(title or f"Train on a bridge: {case.deck.name}", about, tuple(sections), verdict)
+    return framed(
+        title or f"Train on a bridge: {case.deck.name}",
+        about,
+        short=in_short(key_table(key_results(summary), time="s"), remarks, trouble),
+        verdicts=verdicts_section(verdicts, rules),
+        inputs=inputs_section(case, {"": case.train}),
+        modes=modes_section(case.deck, case.settings.accelerations_up_to_hz),
+        results=(*tables_of_summary(summary), *of_run(run, case.points.tolist())),
+        limits=assumed(case, case.train),
+        receipt=(choices(run.settings, case.deck, case.content, run), inputs(case.content)),
+        verdict="" if verdicts is None else verdicts.verdict,
+    )
 
 
 def report_of_envelope(
@@ -208,27 +215,23 @@ def report_of_envelope(
             allowed = f"is over {', '.join(map(str, found.dims))}, not over train and speed"
             raise InputError("found", None, allowed, "report_of_study takes other studies")
     speeds = found["speed"].values
-    names = errors.counted(list(trains), 4)
-    about = f"{names} over {case.deck.name}, {case.deck.length:g} m, "
-    about += f"at {len(speeds)} speeds from {_speed(speeds[0])} to {_speed(speeds[-1])}"
     if assessment is not None:
         verdicts = assessment.verdicts if verdicts is None else verdicts
         rules = assessment.rules if rules is None else rules
-    key = _key_table(key_peaks(found))
-    content = _content(case, tables)
-    sections = [
-        _in_short(key, [*doubts, *_quiet(case)], "", failures(found)),
-        verdicts_section(verdicts, rules, assessment),
-        _inputs(case, trains, speeds=speeds, own_train=False),
-        _modes(case.deck, case.settings.accelerations_up_to_hz),
-        Section("Results", (*peaks(found), *pictures(found, case.deck), whole(found))),
-        _assumed(case, next(iter(trains.values()))),
-        Section("Receipt", (
-            choices(case.settings, case.deck, case.content), inputs(content), programs(),
-        )),
-    ]  # fmt: skip
-    verdict = "" if verdicts is None else verdicts.verdict
-    return Report(title or f"Trains on a bridge: {case.deck.name}", about, tuple(sections), verdict)
+    return framed(
+        title or f"Trains on a bridge: {case.deck.name}",
+        about_speeds(list(trains), case.deck, speeds),
+        short=short_over_speeds(found, [*doubts, *quiet(case)]),
+        verdicts=verdicts_section(verdicts, rules, assessment),
+        inputs=inputs_section(case, trains, speeds=speeds, own_train=False),
+        modes=modes_section(case.deck, case.settings.accelerations_up_to_hz),
+        results=results_over_speeds(found, case.deck),
+        limits=assumed(case, next(iter(trains.values()))),
+        receipt=(
+            choices(case.settings, case.deck, case.content), inputs(_content(case, tables)),
+        ),
+        verdict="" if verdicts is None else verdicts.verdict,
+    )  # fmt: skip
 
 
 def report_of_assessment(
@@ -252,25 +255,23 @@ def report_of_assessment(
     """
     errors.instance("assessment", assessment, Assessment)
     deck, found = assessment.deck, assessment.envelope
-    speeds = found["speed"].values
-    names = errors.counted([str(name) for name in found["train"].values], 4)
-    about = f"{names} over {deck.name}, {deck.length:g} m, "
-    about += f"at {len(speeds)} speeds from {_speed(speeds[0])} to {_speed(speeds[-1])}"
     given: list[Any] = [requirements_table(assessment.needs), resolved_deck(deck)]
     if trains:
-        given += [_trains(trains), *sketches(next(iter(trains.values())), deck)]
+        given += [trains_table(trains), *sketches(next(iter(trains.values())), deck)]
     own = [remark.moved("deck") for remark in deck.remarks]
-    sections = [
-        _in_short(_key_table(key_peaks(found)), own, "", failures(found)),
-        verdicts_section(assessment.verdicts, assessment.rules, assessment),
-        Section("Inputs", tuple(given)),
-        _modes(deck),
-        Section("Results", (*peaks(found), *pictures(found, deck), whole(found))),
-        Section("Limits", (Words("Not in this calculation:"), Notes(tuple(left_out())))),
-        Section("Receipt", (made_in_python(deck, trains), programs())),
-    ]
-    title = title or f"Trains on a bridge: {deck.name}"
-    return Report(title, about, tuple(sections), assessment.verdict)
+    limits = (Words("Not in this calculation:"), Notes(tuple(left_out())))
+    return framed(
+        title or f"Trains on a bridge: {deck.name}",
+        about_speeds(found["train"].values.tolist(), deck, found["speed"].values),
+        short=short_over_speeds(found, own),
+        verdicts=verdicts_section(assessment.verdicts, assessment.rules, assessment),
+        inputs=Section("Inputs", tuple(given)),
+        modes=modes_section(deck),
+        results=results_over_speeds(found, deck),
+        limits=Section("Limits", limits),
+        receipt=(made_in_python(deck, trains),),
+        verdict=assessment.verdict,
+    )
 
 
 def report_of_study(
@@ -309,126 +310,24 @@ def report_of_study(
     over = [(d, found.sizes[d], _ends(found, d), found[d].attrs.get("units", "")) for d in dims]
     varied = Table.of("varied", "What varies", ["key", "values", "from, to", "unit"], over)
     first, *rest = of_study(found)
-    short = [varied, first]
-    sections = [
-        _in_short(None, [*doubts, *_quiet(case)], "", [*failures(found), *short]),
-        verdicts_section(None),
-        _inputs(case, trains or {"": case.train}, own_train=not trains),
-        _modes(case.deck, case.settings.accelerations_up_to_hz),
-        Section("Results", (*rest, whole(found))),
-        _assumed(case, case.train),
-        Section("Receipt", (
-            choices(case.settings, case.deck, case.content),
-            inputs(_studied(case, study)), programs(),
-        )),
-    ]  # fmt: skip
-    return Report(title or f"Study of a bridge: {case.deck.name}", about, tuple(sections))
+    return framed(
+        title or f"Study of a bridge: {case.deck.name}",
+        about,
+        short=in_short(
+            None, [*doubts, *quiet(case)], more=[*failures(found), varied, first]
+        ),
+        verdicts=verdicts_section(None),
+        inputs=inputs_section(case, trains or {"": case.train}, own_train=not trains),
+        modes=modes_section(case.deck, case.settings.accelerations_up_to_hz),
+        results=(*rest, whole(found)),
+        limits=assumed(case, case.train),
+        receipt=(
+            choices(case.settings, case.deck, case.content), inputs(_studied(case, study)),
+        ),
+    )  # fmt: skip
 
 
-# ---- parts of all of them
-
-
-def _train(train: AnyTrain) -> str:
-    kinds = train.kinds()
-    if not kinds:
-        name = getattr(train, "name", None)
-        return name or f"A train of {len(train.formation[0].axles)} axles"
-    counts = [f"{len(cars)} x {vehicle.name}" for vehicle, cars in kinds]
-    return errors.counted(counts, 4)
-
-
-def _speed(speed: float) -> str:
-    return f"{shown(float(speed))} m/s ({shown(in_km_h(speed))} km/h)"
-
-
-def _key_table(rows: Sequence[tuple[Any, ...]], time: str = "") -> Table:
-    heads = ["what", "value", "unit", "where", *([("at", time)] if time else [])]
-    rows = rows if time else [row[:-1] for row in rows]
-    note = "The deck's own weight is not in these numbers."
-    return Table.of("in short", "The largest values", heads, rows, note=note)
-
-
-def _quiet(case: Case) -> list[Remark]:
-    """Return what a deck says of itself, which no warning is."""
-    return [remark.moved("deck") for remark in case.deck.remarks if not remark.warned]
-
-
-def _in_short(
-    key: Table | None, remarks: Sequence[Remark], trouble: str, more: Sequence[Any] = ()
-) -> Section:
-    parts: list[Any] = [Words(trouble, "warning")] if trouble else []
-    warned = list(dict.fromkeys(str(r) for r in remarks if r.warned))
-    others = list(dict.fromkeys(str(r) for r in remarks if not r.warned))
-    if warned:
-        parts += [Words("Doubts and warnings:"), Notes(tuple(warned), "warning")]
-    if key is not None:
-        parts.append(key)
-    parts += more
-    if others:
-        parts += [Words("To be known when reading the numbers:"), Notes(tuple(others))]
-    if not remarks and not trouble:
-        parts.append(Words("Nothing about the input or the numbers was found doubtful.", "note"))
-    return Section("In short", tuple(parts))
-
-
-def _inputs(
-    case: Case,
-    trains: Mapping[str, AnyTrain],
-    *,
-    speeds: Sequence[float] | None = None,
-    own_train: bool = True,
-) -> Section:
-    given = dict(case.content)
-    hidden = [] if speeds is None else ["run.speed"]
-    if not own_train:  # those of the envelope instead
-        given.pop("train", None)
-        hidden.append("train")
-    parts: list[Any] = [*tables_of_case(case.content, hidden)]
-    if speeds is not None:
-        rows = [(i, float(v), in_km_h(v)) for i, v in enumerate(speeds, start=1)]
-        heads = ["number", ("speed", "m/s"), ("speed", "km/h")]
-        parts.append(Table.of("speeds", "Speeds", heads, rows, on_page=False))
-    parts += [resolved_deck(case.deck), *file_tables(given)]
-    if not own_train:
-        parts.append(_trains(trains))
-    first = next(iter(trains.values()))
-    if own_train:
-        files = [path for role, path in input_files(given) if role == "vehicle"]
-        known = bool(files) and all(path.suffix == ".csv" for path in files)
-        parts += resolved_train(first, known)
-    parts += sketches(first, case.deck)
-    if not case.track.level:
-        parts.append(track_picture(case.track, case.deck, case.settings.lead_in))
-    return Section("Inputs", tuple(parts))
-
-
-def _trains(trains: Mapping[str, AnyTrain]) -> Table:
-    heads = [
-        "train",
-        "axles",
-        ("length", "m"),
-        ("heaviest axle", "kN"),
-        ("all axles", "kN"),
-        "kind",
-    ]
-    rows = []
-    for name, train in trains.items():
-        loads = [axle.static_load for car in train.formation for axle in car.axles]
-        kind = "cars with suspension" if train.kinds() else "constant axle loads"
-        length, most, weight = float(train.length), max(loads) / 1e3, sum(loads) / 1e3
-        rows.append((name, len(loads), length, most, weight, kind))
-    return Table.of("trains", "Trains", [Column(*h) if isinstance(h, tuple) else h for h in heads],
-                    rows, note="Length: first to last axle.")  # fmt: skip
-
-
-def _modes(deck: Deck, up_to_hz: float = np.inf) -> Section:
-    return Section("Modes of the deck", (modes_table(deck, up_to_hz), modes(deck)))
-
-
-def _assumed(case: Case, train: AnyTrain) -> Section:
-    held = assumptions(train, case.deck, case.track, case.settings)
-    parts = (Notes(tuple(held)), Words("Not in this calculation:"), Notes(tuple(left_out())))
-    return Section("Assumptions and limits", parts)
+# ---- what counts, and ends
 
 
 def _content(case: Case, tables: Mapping[str, Mapping[str, Any]] | None) -> dict[str, Any]:
