@@ -354,8 +354,9 @@ def test_newtons_laws_hold_where_a_bogie_s_couple_is_spread(loads):
     beam = rb.Beam("b", (length,), mass, 5e9, elements=24, bearings=bearings)
     deck = beam.deck(12, (alpha, beta), rail=BED)
     train, speed = rb.Train(rb.planar_car(CAR)), 45.0
-    options = {"time_step": 5e-4, "lead_in": 0.0, "tail": 0.1, "interaction": "rigid"}
-    run = rb.cross(train, deck, speed=speed, loads=loads, **options)
+    options = {"time_step": 5e-4, "lead_in": 30.0, "tail": 0.1, "interaction": "rigid"}
+    waves = rb.Track(vertical=rb.Harmonic(3e-3, wavelength=9.0))
+    run = rb.cross(train, deck, waves, speed=speed, loads=loads, **options)
     some = slice(None, None, 11)
     s = np.linspace(0.0, length, 1801)
     groups = [[0, 1], [2, 3]] if loads == "bogies" else [[0, 1, 2, 3]]
@@ -380,6 +381,7 @@ def test_newtons_laws_hold_where_a_bogie_s_couple_is_spread(loads):
     shape = deck.shapes(s)[:, :, 1]
     inertia = mass * np.trapezoid(np.stack([shape, s[:, None] * shape]), s, axis=1) @ moving
     wrong = np.abs(found + arriving - inertia).max(axis=1)
+    assert np.abs(couple).max() > 5e3
     assert np.all(np.abs(inertia).max(axis=1) > 0.1 * np.abs(arriving).max(axis=1))
     assert np.all(wrong < 1e-5 * np.abs(arriving).max(axis=1))
 

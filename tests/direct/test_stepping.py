@@ -5,11 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hertz_ode import Rider, crossing
+from spacecar_ode import Link, Part, SpaceCar, Wheel
+from spacecar_ode import crossing as crossing_in_space
 
 import railbridge as rb
 from railbridge.direct.stepping import pressing
 from railbridge.response import ramp_coefficients
 from railbridge.vehicles import Body, Spring, Vehicle
+from railbridge.wheelsets import Wheelset, on_wheelsets
 
 RIDER = Rider(wheel=1000.0, body=6000.0, stiffness=1.5e6, damping=2e4, contact=1.0e9)
 LENGTH, EI, MASS, SPEED = 20.0, 6e9, 6000.0, 40.0
@@ -125,6 +128,110 @@ def balance(run, amplitude):
     power = force * SPEED * (climb + np.sum(slope * q, axis=0))
     work = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * h)])
     return energy[2:-2] - energy[2], work[2:-2] - work[2]
+
+
+SPACE = ("y", "z", "roll", "pitch", "yaw")
+GAUGE, LOSS = 1.5, 1e5
+PARTS = {
+    "frame": Part(21e3, (9e3, 2.5e4, 2.6e4), (0.15, 0.03, 1.2), SPACE),
+    "first": Part(1600.0, (850.0, 0.0, 900.0), (1.25, 0.0, 0.46), ("y", "z", "roll", "yaw")),
+    "second": Part(1600.0, (850.0, 0.0, 900.0), (-1.25, 0.0, 0.46), ("y", "z", "roll", "yaw")),
+}
+LINKS = [
+    Link("frame", name, (x, y, 0.5), (8e6, 5e6, 1.2e6), (2e3, 1e3, 1.5e4), (0.0, 0.0, 8e6))
+    for name, x in (("first", 1.25), ("second", -1.25))
+    for y in (0.98, -0.98)
+]
+WHEELS = [
+    Wheel(name, (x, y, 0.0), 6e8, 1.1e9, LOSS)
+    for name, x in (("first", 1.25), ("second", -1.25))
+    for y in (GAUGE / 2, -GAUGE / 2)
+]
+
+
+def in_space():
+    """The same vehicle, of the package."""
+    frame = PARTS["frame"]
+    body = Body("frame", frame.mass, frame.inertia, frame.place)
+    springs = [
+        Spring(
+            link.low, link.high, link.at, link.k[1:], link.c[1:], link.k[0], link.c[0],
+            link.series[1:],
+        )
+        for link in LINKS
+    ]  # fmt: skip
+    wheelsets = [
+        Wheelset(
+            name, part.place[0], part.mass, part.inertia[0], part.inertia[2], GAUGE,
+            part.place[2], (6e8, 1.1e9), LOSS,
+        )
+        for name, part in list(PARTS.items())[1:]
+    ]  # fmt: skip
+    return on_wheelsets("in space", [body], springs, wheelsets, 6.0)
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("contact", ["permanent", "hertz"])
+def test_wheelsets_that_roll_yaw_and_part_are_those_of_the_differential_equations(contact):
+    """Rails that differ left and right, on a deck that bends and twists; some wheels lift."""
+    length, mass, speed, offset, height, ratio = 7.0, 7e3, 60.0, 1.7, 1.1, 0.02
+    vertical, lateral, torsion, polar = 3e8, 1.2e9, 5e8, 2.5e4
+    content = {
+        "length": length, "mass": mass, "bending_stiffness_vertical": vertical,
+        "bending_stiffness_lateral": lateral, "torsional_stiffness": torsion,
+        "polar_inertia": polar, "modes": 3, "damping": {"modal": ratio}, "track_height": height,
+    }  # fmt: skip
+    deck = rb.deck_from_table("d", content)
+    k = np.pi / length
+    omega = np.array([k**2 * np.sqrt(e / mass) for e in (lateral, vertical)])
+    omega = np.append(omega, k * np.sqrt(torsion / polar))
+    size = np.diag(np.sqrt(2.0 / (length * np.array([mass, mass, polar]))))
+
+    def shapes(x):
+        on = (x >= 0.0) & (x <= length)
+        part = np.array([np.sin(k * x), k * np.cos(k * x)]) * on
+        return part[..., None, None] * size
+
+    # Left and right, and sideways: (1 - cos) of the place, level before the deck.
+    high, low, aside = 2e-3, 2e-4, 1e-3
+    lengths = np.array([2.5, 3.1, 2.5, 3.1]), np.full(4, 5.0)
+    depths = np.array([high, low, high, low]), np.full(4, aside)
+
+    def rails(x):
+        met = []
+        for depth, wave in zip(depths[::-1], lengths[::-1], strict=True):
+            turn = 2 * np.pi / wave
+            on = x > 0.0
+            half = on * depth / 2
+            met.append((half * (np.cos(turn * x) - 1.0), -half * turn * np.sin(turn * x)))
+        return np.moveaxis(np.array(met), (0, 1, 2), (2, 0, 1))
+
+    def waves(depth, wave):
+        below = rb.Table([-1e3, 1e3], [-depth / 2] * 2)
+        return [rb.Harmonic(depth / 2, wave, np.pi / 2), below]
+
+    track = rb.Track(rb.Rails(left=waves(high, 2.5), right=waves(low, 3.1)), waves(aside, 5.0))
+    times = np.arange(0.0, 0.14, 2e-4)
+    car = SpaceCar(PARTS, LINKS, WHEELS)
+    exerted, motion = crossing_in_space(
+        car, shapes, omega, ratio, speed, offset, height, rails, times, contact == "hertz"
+    )
+    dynamic = exerted - np.array([[0.0, -load] for load in car.load])[..., None]
+    parts = contact == "hertz"
+    step, every = (5e-5, 4) if parts else (1e-4, 2)
+    run = rb.cross(
+        rb.Train(in_space()), deck, track, speed=speed, track_offset=offset, contact=contact,
+        time_step=step, lead_in=0.0, tail=0.0, interaction="direct",
+    )  # fmt: skip
+    ours = run.wheel_forces[..., ::every][..., : len(times)]
+    lifted = run.parted[:, ::every][:, : len(times)].any(axis=1)
+    assert lifted.any() == parts and not lifted.all()
+    wrong = np.sqrt(np.mean((ours - exerted) ** 2, axis=(0, 2)))
+    assert np.all(wrong < (0.02 if parts else 5e-3) * np.sqrt(np.mean(dynamic**2, axis=(0, 2))))
+    moved = run.car_motion(1)
+    for (name, freedom), expected in zip(car.labels, motion, strict=True):
+        found = moved[f"{name} {freedom}"][::every][: len(times)]
+        assert found == pytest.approx(expected, abs=2e-3 * np.abs(expected).max())
 
 
 STIFF = 1.5 * 8e4 / 1e-4
