@@ -9,10 +9,10 @@ from spacecar_ode import Link, Part, SpaceCar, Wheel
 from spacecar_ode import crossing as crossing_in_space
 
 import railbridge as rb
+from railbridge.contacts.wheelsets import Wheelset, on_wheelsets
 from railbridge.direct.stepping import pressing
 from railbridge.response import ramp_coefficients
 from railbridge.vehicles import Body, Spring, Vehicle
-from railbridge.wheelsets import Wheelset, on_wheelsets
 
 RIDER = Rider(wheel=1000.0, body=6000.0, stiffness=1.5e6, damping=2e4, contact=1.0e9)
 LENGTH, EI, MASS, SPEED = 20.0, 6e9, 6000.0, 40.0
