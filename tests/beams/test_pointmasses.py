@@ -129,7 +129,9 @@ def test_a_mass_in_the_axis_moves_in_each_direction_alone():
     assert shares.max(axis=0) == pytest.approx(np.ones(8))
     found = dict(zip(modes.names, modes.frequencies_hz, strict=True))
     ratio = found["lateral bending 1"] / found["vertical bending 1"]
-    assert ratio == pytest.approx(np.sqrt(EIZ / EI), rel=1e-9)
+    # The mesh has eigenvalues up to 1.6e9 times the first: seven digits of it are sure, whatever
+    # processor does the sums.
+    assert ratio == pytest.approx(np.sqrt(EIZ / EI), rel=1e-7)
 
 
 def test_names_and_kept_modes_of_a_beam_that_is_rigid_lengthwise():
