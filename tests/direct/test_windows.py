@@ -77,7 +77,7 @@ def test_what_settles_too_slowly_is_cut_into_windows_too(tolerance_of):
     run = solved(train, deck, "iterate", max_iterations=10, **options)
     assert run.converged and run.windows is not None
     assert apart(run, solved(train, deck, "direct")) < 1e-8
-    (remark,) = [str(r) for r in rb.notices.remarks(run) if "windows" in str(r)]
+    (remark,) = [str(r) for r in rb.remarks(run) if "windows" in str(r)]
     assert "did not settle over the whole record" in remark
     # Who allows only a few passes means them.
     with pytest.raises(rb.NotConvergedError):
